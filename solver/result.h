@@ -212,15 +212,15 @@ struct StaticTable {
   std::vector<std::optional<int>> negative_eigenvalues;
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
   std::vector<std::optional<int>> state;      ///< index into Result::states
-  std::vector<std::optional<Frequencies>> frequencies = {};  ///< as in Branch
+  std::vector<std::optional<Frequencies>> frequencies = {};  ///< entries as in Branch::frequencies
 };
 
 /// Small free vibrations about the equilibrium at a load factor.
 struct Vibration {
   double load_factor = 0.0;
   Frequencies frequencies;
-  std::vector<std::optional<double>> error_estimates;  ///< absolute, of omega^2; empty: not estimated
-  std::vector<Mode> modes;  ///< of a pair that flutters the real and the imaginary part
+  std::vector<std::optional<double>> error_estimates;  ///< absolute, for omega^2; empty: not estimated
+  std::vector<Mode> modes;  ///< two for a pair that flutters: real and imaginary part
 };
 
 /// Extreme value with its position.

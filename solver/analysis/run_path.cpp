@@ -358,6 +358,18 @@ Complete completer(const Model& model, const Analysis& analysis, const PathNorm&
   };
 }
 
+/// Rule that follows the natural motions of loads without a potential; empty where every load has one.
+/// @param flutter set where the model has masses; has to live as long as the rule
+std::function<StepVibrations(const PathPoint&, const PathPoint&)> vibration_rule(
+    const Model& model, const Structure& structure, PointSolver& solver, double tolerance,
+    std::optional<FlutterSearch>& flutter) {
+  if (!structure.unsymmetric()) return {};
+  if (has_mass(model)) flutter.emplace(structure, model);
+  return [&, tolerance](const PathPoint& from, const PathPoint& to) {
+    return flutter ? flutter->on_step(solver, from, to, tolerance) : divergence_on_step(solver, from, to);
+  };
+}
+
 /// Follows the path on one mesh.
 /// @param earlier critical points of the path on a coarser mesh
 /// @param decays bending decay lengths at the path's end, for the next mesh
@@ -387,12 +399,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   bound_negative(analysis, start.point->negative, watch, rules);
   if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   std::optional<FlutterSearch> flutter;
-  if (structure.unsymmetric() && has_mass(model)) flutter.emplace(structure, model);
-  if (structure.unsymmetric())
-    rules.vibrations = [&](const PathPoint& from, const PathPoint& to) {
-      return flutter ? flutter->on_step(solver, from, to, rules.locate.tolerance)
-                     : divergence_on_step(solver, from, to);
-    };
+  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);

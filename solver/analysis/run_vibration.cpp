@@ -29,7 +29,7 @@ struct Level {
   std::shared_ptr<const Structure> structure;
   std::vector<std::optional<NaturalMotions>> rows;
   double unit = 1.0;
-  Result result;  ///< of the states
+  Result result;  ///< the states, as a static analysis gives them
 };
 
 Level solve_on(const Model& model, const Analysis& analysis, std::shared_ptr<const Structure> structure,

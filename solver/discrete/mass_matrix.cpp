@@ -76,6 +76,22 @@ std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, c
   return out;
 }
 
+/// Adds the forces of a mass on the unknowns of its element.
+void add_forces(const MassPlace& place, const ElementDofs& dofs, double h, int order,
+                const Eigen::Ref<const Eigen::MatrixXd>& motions, Eigen::MatrixXd& out) {
+  for (int c = 0; c < 3; ++c) {
+    const double mass = c < 2 ? place.mass : place.rotary;
+    if (mass == 0.0) continue;
+    for (Index j = 0; j < motions.cols(); ++j) {
+      double moved = motions(dofs.a[c], j);
+      for (int r = 0; r < order; ++r) moved += h * place.integrals[r] * motions(dofs.v + c * order + r, j);
+      const double force = mass * moved;
+      out(dofs.a[c], j) += force;
+      for (int r = 0; r < order; ++r) out(dofs.v + c * order + r, j) += force * h * place.integrals[r];
+    }
+  }
+}
+
 }  // namespace
 
 bool has_mass(const Model& model) {
@@ -114,25 +130,12 @@ MassMatrix make_mass_matrix(const Structure& structure, const Model& model) {
 
 Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,
                               const Eigen::Ref<const Eigen::MatrixXd>& motions) {
-  const int p = structure.mesh.order;
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
   for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
-    const ElementDofs& dofs = structure.dofs[e];
     const double h = length_of_element(structure, static_cast<int>(e));
-    for (int i = masses.elements.first[e]; i < masses.elements.first[e + 1]; ++i) {
-      const MassPlace& place = masses.elements.places[static_cast<std::size_t>(i)];
-      for (int c = 0; c < 3; ++c) {
-        const double mass = c < 2 ? place.mass : place.rotary;
-        if (mass == 0.0) continue;
-        for (Index j = 0; j < motions.cols(); ++j) {
-          double moved = motions(dofs.a[c], j);
-          for (int r = 0; r < p; ++r) moved += h * place.integrals[r] * motions(dofs.v + c * p + r, j);
-          const double force = mass * moved;
-          out(dofs.a[c], j) += force;
-          for (int r = 0; r < p; ++r) out(dofs.v + c * p + r, j) += force * h * place.integrals[r];
-        }
-      }
-    }
+    for (int i = masses.elements.first[e]; i < masses.elements.first[e + 1]; ++i)
+      add_forces(masses.elements.places[static_cast<std::size_t>(i)], structure.dofs[e], h,
+                 structure.mesh.order, motions, out);
   }
   return out;
 }

@@ -98,7 +98,6 @@ class Builder {
   [[nodiscard]] double size_of_loads() const;
   void scale_other_actions();
   void find_follower_ends(double load_scale);
-  void find_follower_forces(double load_scale);
   void add_follower_changes(const ElementPressure& pressure, double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
@@ -560,7 +559,7 @@ void Builder::scale_other_actions() {
   for (const ElementPressure& p : pressures_)
     elements_->set_pressure(p.element, p.proportional.times(1.0 / total), p.constant);
   find_follower_ends(total);
-  find_follower_forces(total);
+  out_.follower_forces = follower_forces_of(out_, model_);
 }
 
 /// Whether constant actions cause displacements, and not only reactions of rigid supports.
@@ -617,35 +616,6 @@ void Builder::find_follower_ends(double load_scale) {
     sums[j].terms = {{3 * j, 3 * j + 1}};
     if (!support.fixed[0] && !support.fixed[1] && (sums[j].proportional != 0.0 || sums[j].constant != 0.0))
       out_.follower_ends.push_back(sums[j]);
-  }
-}
-
-/// Finds the point forces that turn with their places.
-void Builder::find_follower_forces(double load_scale) {
-  const CollocationRule& rule = CollocationRule::of(out_.mesh.order);
-  for (const Load& load : model_.loads) {
-    const auto* point = std::get_if<PointLoad>(&load);
-    if (point == nullptr || !point->follows || out_.geometry == Geometry::linear) continue;
-    FollowerForce& force = out_.follower_forces.emplace_back();
-    const bool proportional = point->pattern == Pattern::proportional;
-    for (int c = 0; c < 2; ++c)
-      (proportional ? force.proportional : force.constant)[c] =
-          out_.scales.scaled_force(point->force[c]) / (proportional ? load_scale : 1.0);
-    if (point->at.member.empty()) {
-      const int node = index_of(model_.nodes, point->at.node);
-      force.terms.push_back({3 * node, 3 * node + 1, 3 * node + 2});
-      continue;
-    }
-    const MeshPlace place =
-        place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
-    const ElementDofs& dofs = out_.dofs[static_cast<std::size_t>(place.element)];
-    const int p = rule.order();
-    std::array<double, kMaxOrder> integrals{};
-    rule.integrals_at(place.xi, std::span(integrals).first(static_cast<std::size_t>(p)));
-    force.terms.push_back({dofs.a[0], dofs.a[1], dofs.a[2]});
-    for (int r = 0; r < p; ++r)
-      force.terms.push_back(
-          {dofs.v + r, dofs.v + p + r, dofs.v + 2 * p + r, element_length(place.element) * integrals[r]});
   }
 }
 

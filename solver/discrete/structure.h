@@ -140,6 +140,10 @@ struct Structure {
 /// Prescribed displacements of the ground under springs and foundations, in the order of their nodes.
 [[nodiscard]] std::vector<PrescribedDisplacement> ground_displacements(const Model& model);
 
+/// @brief Point forces of a model that turn with their places; none in linear geometry.
+/// @pre the unknowns and scales of the structure are set
+[[nodiscard]] std::vector<FollowerForce> follower_forces_of(const Structure& structure, const Model& model);
+
 /// Adds the moments of semi-rigid joints at the unknowns y to the rows of a residual.
 void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
                        Eigen::Ref<Eigen::VectorXd> f);

@@ -85,6 +85,29 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
   return out;
 }
 
+std::vector<FollowerForce> follower_forces_of(const Structure& structure, const Model& model) {
+  std::vector<FollowerForce> out;
+  for (const Load& load : model.loads) {
+    const auto* point = std::get_if<PointLoad>(&load);
+    if (point == nullptr || !point->follows || structure.geometry == Geometry::linear) continue;
+    FollowerForce& force = out.emplace_back();
+    const bool grows = point->pattern == Pattern::proportional;
+    for (std::size_t c = 0; c < 2; ++c)
+      (grows ? force.proportional : force.constant)[c] =
+          structure.scales.scaled_force(point->force[c]) / (grows ? structure.scales.load : 1.0);
+    const auto along = [&](std::array<double, 3> row) {
+      return displacement_row(structure, model, point->at, row).entries;
+    };
+    const auto x = along({1.0, 0.0, 0.0});
+    const auto y = along({0.0, 1.0, 0.0});
+    const auto turn = along({0.0, 0.0, 1.0});
+    for (std::size_t i = 0; i < x.size(); ++i)
+      force.terms.push_back({static_cast<int>(x[i].first), static_cast<int>(y[i].first),
+                             static_cast<int>(turn[i].first), x[i].second});
+  }
+  return out;
+}
+
 NodeSpring rod_of(const Structure& structure, const Model& model, std::size_t index) {
   const Spring& spring = model.springs[index];
   return node_spring(structure.spring_laws[index], index_of(model.nodes, spring.at.node),

@@ -65,7 +65,7 @@ double largest_growth(const Structure& structure, const Model& model, const Mass
   const MatrixXd& X = right.motions;
   const MatrixXd& Y = left.motions;
   const Index n = X.cols();
-  const double unit = std::sqrt(masses.square);  // of frequency
+  const double unit = std::sqrt(masses.square);  // unit of frequencies
   const MatrixXd M = Y.transpose() * mass_products(structure, masses, X);
   const MatrixXd C =
       model.damping.mass / unit * M + model.damping.stiffness * unit * elastic_work(structure, model, Y, X);

@@ -19,13 +19,13 @@ using Squares = std::vector<std::complex<double>>;
 /// Limits of the search for flutter; ratios unless said otherwise.
 struct FlutterLimits {
   static constexpr int tracked = 8;           ///< number of eigenvalues that are watched
-  static constexpr double tolerance = 1e-10;  ///< of the natural motions
+  static constexpr double tolerance = 1e-10;  ///< relative accuracy of the natural motions
   static constexpr double real = 1e-6;        ///< imaginary part of an eigenvalue that counts as rounding
   /// Distance of a function in the middle of a step from the mean of the ends, over its value there (over the
   /// larger end where the sign changes), beyond which the step is halved.
   static constexpr double bend = 0.1;
   static constexpr double straight = 1e-3;  ///< such a distance over the magnitude that needs no halving
-  static constexpr int halvings = 5;        ///< of one step; one that needs more is too long
+  static constexpr int halvings = 5;        ///< a step that needs more of them is too long
   static constexpr double shortest = 1e-6;  ///< length of a step that is not halved, over its load
   static constexpr int places = 4;          ///< pieces of a step at whose ends divergence_on_step() looks
 };

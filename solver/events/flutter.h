@@ -52,7 +52,7 @@ class FlutterSearch {
     PathPoint point;
     NaturalMotions motions;
     int pairs = 0;        ///< conjugate pairs of eigenvalues that are not real
-    double growth = 0.0;  ///< of damped vibrations; only where the model has damping
+    double growth = 0.0;  ///< growth of damped vibrations; 0 without damping
   };
   [[nodiscard]] Sample sample(const PathPoint& point);
   [[nodiscard]] std::optional<CriticalEvent> between(PointSolver& solver, const Sample& from,
@@ -69,7 +69,7 @@ class FlutterSearch {
   const Model& model_;
   MassMatrix masses_;
   MotionSearch search_;
-  MotionSearch left_;  ///< of the transposed tangent
+  MotionSearch left_;  ///< motions of the transposed tangent
   std::optional<Sample> last_;
   bool too_long_ = false;  ///< the present step, see StepVibrations
 };

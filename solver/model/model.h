@@ -367,7 +367,7 @@ struct Model {
   std::vector<LoadCase> load_cases;
   std::vector<Imperfection> imperfections;
   std::vector<PointMass> masses;
-  Damping damping;  ///< of vibrations, where flutter is looked for
+  Damping damping;  ///< damps vibrations where flutter is looked for
   std::vector<Monitor> monitors;
   bool operator==(const Model&) const = default;
 };

@@ -1,0 +1,220 @@
+/// Natural frequencies of beams, rings and columns under load.
+///
+/// Sources: characteristic equations of the slender beam (Timoshenko, Vibration Problems in Engineering, ch.
+/// 5); Hoppe's ring, omega^2 = EI n^2 (n^2 - 1)^2 / (m R^4 (n^2 + 1)); omega^2 of a pinned column falls
+/// linearly with its load.
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/convergence/fitted_slope.h"
+#include "tests/verification/cases.h"
+
+namespace snapthrough {
+namespace {
+
+using namespace testing;
+
+constexpr double kLength = 2.0;
+constexpr double kEI = 3.0;
+constexpr double kMass = 0.7;
+
+Model heavy_beam(const std::string& start, const std::string& end, double EA = 1e12) {
+  Model model = straight(kLength, kEI, EA, start, end);
+  model.sections[0].mass = kMass;
+  return model;
+}
+
+Analysis vibration(int modes, std::vector<double> factors, double accuracy) {
+  Analysis analysis;
+  analysis.type = AnalysisType::vibration;
+  analysis.modes = modes;
+  analysis.load_factors = std::move(factors);
+  analysis.discretization.accuracy = accuracy;
+  analysis.output.points_per_member = 11;
+  return analysis;
+}
+
+Result solved(const Model& model, const Analysis& analysis) {
+  Result result = solve(model, analysis);
+  EXPECT_FALSE(result.failure) << result.failure->code << ": " << result.failure->detail;
+  return result;
+}
+
+double squared(double wave_number) { return std::pow(wave_number / kLength, 4) * kEI / kMass; }
+
+/// Roots of a characteristic equation, in intervals of its argument that hold one each.
+double root_between(const std::function<double(double)>& f, double lo, double hi) {
+  const bool rises = f(hi) > 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    ((f(middle) > 0.0) == rises ? hi : lo) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+struct BeamEnds {
+  const char* start;
+  const char* end;
+  std::function<double(double)> characteristic;
+  double first;  ///< the n-th root is about first + (n - 1) pi
+  int rigid;     ///< motions without strain
+};
+
+/// The first ten frequencies of beams with all kinds of ends.
+TEST(Vibration, OfBeamsIsThatOfTheCharacteristicEquations) {
+  const auto clamped_free = [](double x) { return std::cos(x) + 1.0 / std::cosh(x); };
+  const auto clamped_clamped = [](double x) { return std::cos(x) - 1.0 / std::cosh(x); };
+  const auto clamped_pinned = [](double x) { return std::sin(x) - std::cos(x) * std::tanh(x); };
+  const BeamEnds cases[] = {{"xy", "y", [](double x) { return std::sin(x); }, kPi, 0},
+                            {"xyr", "", clamped_free, 0.6 * kPi, 0},
+                            {"xyr", "yr", clamped_clamped, 1.5 * kPi, 0},
+                            {"xyr", "y", clamped_pinned, 1.25 * kPi, 0},
+                            {"", "", clamped_clamped, 1.5 * kPi, 3}};
+  for (const BeamEnds& ends : cases) {
+    const int modes = 10 + ends.rigid;
+    const Result result = solved(heavy_beam(ends.start, ends.end), vibration(modes, {0.0}, 1e-8));
+    const Vibration& found = result.vibrations->at(0);
+    ASSERT_EQ(found.frequencies.squares.size(), static_cast<std::size_t>(modes));
+    for (int n = 0; n < modes; ++n) {
+      const std::string which = std::string(ends.start) + "-" + ends.end + " " + std::to_string(n);
+      const double square = found.frequencies.squares[static_cast<std::size_t>(n)];
+      if (n < ends.rigid) {
+        EXPECT_NEAR(square, 0.0, 1e-9 * squared(kPi)) << which;
+        continue;
+      }
+      const double about = ends.first + (n - ends.rigid) * kPi;
+      const double exact = squared(root_between(ends.characteristic, about - 1.0, about + 1.0));
+      EXPECT_NEAR(square / exact, 1.0, 1e-8) << which;
+      const double estimate = found.error_estimates[static_cast<std::size_t>(n)].value_or(-1.0);
+      EXPECT_LE(std::abs(square - exact), std::max(estimate, 1e-11 * exact)) << which;
+    }
+  }
+}
+
+/// omega_n^2 = (n pi / L)^4 EI / m (1 - P / (n^2 P_1)), also beyond the buckling load.
+TEST(Vibration, OfAColumnFallsLinearlyWithItsLoad) {
+  Model model = heavy_beam("xy", "y");
+  model.loads = {force_at(at_node("b"), -1.0, 0.0)};
+  const double euler = kPi * kPi * kEI / (kLength * kLength);
+  const std::vector<double> factors{-euler, 0.0, 0.25 * euler, 0.5 * euler, 0.99 * euler, 1.5 * euler};
+  const Result result = solved(model, vibration(3, factors, 1e-8));
+  ASSERT_EQ(result.vibrations->size(), factors.size());
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    for (int n = 1; n <= 3; ++n)
+      EXPECT_NEAR(result.vibrations->at(i).frequencies.squares[static_cast<std::size_t>(n - 1)],
+                  squared(n * kPi) * (1.0 - factors[i] / (n * n * euler)), 1e-8 * squared(n * kPi))
+          << factors[i] << " " << n;
+}
+
+/// A free ring: three motions without strain, then pairs. EA R^2 / EI = 1e9 leaves 1e-9 of extension.
+TEST(Vibration, OfAFreeRingIsHoppes) {
+  Model model;
+  const char* const ids[] = {"e", "n", "w", "s"};
+  for (int i = 0; i < 4; ++i)
+    model.nodes.push_back({ids[i], std::cos(0.5 * kPi * i), std::sin(0.5 * kPi * i)});
+  model.sections = {{"s", 1e9, 1.0, {}}};
+  model.sections[0].mass = 1.0;
+  for (int i = 0; i < 4; ++i)
+    model.members.push_back(
+        {"m" + std::to_string(i), ids[i], ids[(i + 1) % 4], "s", ArcCurve{90.0}, false, false});
+  Spring none{"none", at_node("e"), std::array{1.0, 0.0}};  // a model needs a support; this one has no force
+  model.springs = {none};
+  const Result result = solved(model, vibration(17, {0.0}, 1e-7));
+  const std::vector<double>& squares = result.vibrations->at(0).frequencies.squares;
+  ASSERT_EQ(squares.size(), 17U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(squares[i], 0.0, 1e-9);
+  for (int n = 2; n <= 8; ++n) {
+    const double exact = n * n * std::pow(n * n - 1.0, 2) / (n * n + 1.0);
+    for (const int of_pair : {0, 1})
+      EXPECT_NEAR(squares[static_cast<std::size_t>(2 * n - 1 + of_pair)] / exact, 1.0, 2e-8) << n;
+  }
+}
+
+/// Rotary inertia j of a pinned beam: omega^2 = (n pi / L)^4 EI / (m + j (n pi / L)^2).
+TEST(Vibration, CountsTheRotaryInertiaOfSections) {
+  Model model = heavy_beam("xy", "y");
+  model.sections[0].rotary_inertia = 0.02;
+  const Result result = solved(model, vibration(3, {0.0}, 1e-8));
+  for (int n = 1; n <= 3; ++n) {
+    const double k = n * kPi / kLength;
+    EXPECT_NEAR(result.vibrations->at(0).frequencies.squares[static_cast<std::size_t>(n - 1)],
+                std::pow(k, 4) * kEI / (kMass + 0.02 * k * k), 1e-8 * squared(n * kPi));
+  }
+}
+
+/// A mass at the tip of a cantilever without mass: omega^2 = 3 EI / (M L^3).
+TEST(Vibration, OfAPointMassIsThatOfASpring) {
+  Model model = straight(kLength, kEI, 1e12, "xyr", "");
+  model.masses = {{at_node("b"), 5.0, 0.0}};
+  const Result result = solved(model, vibration(1, {0.0}, 1e-8));
+  EXPECT_NEAR(result.vibrations->at(0).frequencies.squares[0], 3.0 * kEI / (5.0 * std::pow(kLength, 3)),
+              1e-10);
+}
+
+/// One-sided supports that touch without pressure have no linear vibration; pressed ones have.
+TEST(Vibration, DoesNotExistWhereSupportsTouchWithoutPressure) {
+  Model model = heavy_beam("xyr", "yr", 1e6);
+  model.foundations = {one_sided("m", 50.0, Side::right)};
+  model.loads = {DistributedLoad{"m", {0.0, -1e-3}, {0.0, 1.0}, LoadMeasure::length, Pattern::proportional}};
+  const Result result = solve(model, vibration(1, {0.0, 1.0}, 1e-6));
+  ASSERT_TRUE(result.failure);
+  EXPECT_EQ(result.failure->code, "no_linear_vibration");
+  ASSERT_EQ(result.vibrations->size(), 1U);
+  EXPECT_EQ(result.vibrations->at(0).load_factor, 1.0);
+  // pressed everywhere, the base acts as a glued one: omega^2 = (4.730 / L)^4 EI / m + K / m
+  EXPECT_NEAR(result.vibrations->at(0).frequencies.squares[0], squared(4.730040744862704) + 50.0 / kMass,
+              1e-2);
+}
+
+/// The lowest frequency along the path of a heated clamped beam is zero at the bifurcation, and rises again
+/// on the branch.
+TEST(Vibration, AlongAHeatedBeamVanishesWhereItBuckles) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "xyr");
+  model.sections[0].mass = 1.0;
+  model.sections[0].expansion = 1e-5;
+  model.loads = {TemperatureLoad{"m", 1.0}};
+  Analysis analysis;
+  analysis.type = AnalysisType::path;
+  analysis.stop.load_factor = {{0.0, 8.0}};
+  analysis.branches.follow = Follow::first;
+  analysis.output.frequencies = 2;
+  const Result result = solved(model, analysis);
+  const double critical = result.summary.critical_load_factor.value_or(0.0);
+  const double free = result.branches.at(0).frequencies.at(0)->squares[0];
+  ASSERT_GE(result.branches.size(), 2U);
+  for (std::size_t i = 0; i < result.branches[0].load_factor.size(); ++i) {
+    const bool is_stable = result.branches[0].negative_eigenvalues[i] == 0;
+    EXPECT_EQ(result.branches[0].frequencies[i]->squares[0] > 0.0, is_stable);
+  }
+  EXPECT_NEAR(result.branches[1].frequencies.at(0)->squares[0], 0.0, 1e-6 * free);
+  for (std::size_t i = 1; i < result.branches[1].load_factor.size(); ++i)
+    EXPECT_GT(result.branches[1].frequencies[i]->squares[0],
+              result.branches[1].frequencies[i - 1]->squares[0]);
+  const Result at = solved(model, vibration(1, {critical}, 1e-6));
+  EXPECT_NEAR(at.vibrations->at(0).frequencies.squares[0], 0.0, 1e-6 * free);
+}
+
+/// Frequencies converge with h^2p, as nodal values and loads do.
+TEST(Vibration, ConvergesWithTwiceTheOrderOfTheElements) {
+  const double exact =
+      squared(root_between([](double x) { return std::cos(x) - 1.0 / std::cosh(x); }, 7.0, 8.5));
+  struct {
+    int order;
+    std::vector<int> elements;
+  } const cases[] = {{1, {16, 32, 64}}, {2, {8, 16, 32}}, {3, {4, 8, 16}}, {4, {3, 4, 6}}};
+  for (const auto& c : cases) {
+    std::vector<double> error;
+    for (const int n : c.elements) {
+      Analysis analysis = vibration(2, {0.0}, 1e-3);
+      analysis.discretization = fixed_mesh(n, c.order);
+      const Result result = solved(heavy_beam("xyr", "yr"), analysis);
+      error.push_back(result.vibrations->at(0).frequencies.squares[1] / exact - 1.0);
+    }
+    EXPECT_NEAR(fitted_order(c.elements, error), 2.0 * c.order, 0.4) << c.order;
+  }
+}
+
+}  // namespace
+}  // namespace snapthrough
