@@ -57,6 +57,7 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
   };
   std::vector<Missed> missed;
   std::vector<ElementPart> parts;
+  LayerParts on_layers = data_.parts_on_layers(y.data());
   double largest = 0.0;
   for (int e = 0; e < size(); ++e) {
     const auto& shape = data_.shapes[e];
@@ -67,7 +68,10 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
         return contact.law().stiffness / shape.h *
                std::abs(contact.penetration(0.5 * (part.from + part.to), u.start, u.dx, u.dy));
       };
-      data_.acting_parts(i, u, parts);
+      if (contact.has_layer())
+        parts = std::move(on_layers[i]);
+      else
+        data_.acting_parts(i, u, parts);
       for (const ElementPart& part : parts) largest = std::max(largest, pressure(part));
       zones::for_each_difference(parts, frozen.contacts[i], [&](const ElementPart& part) {
         missed.push_back({part.to - part.from, pressure(part)});
@@ -89,6 +93,7 @@ MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen:
     const auto& shape = data_.shapes[e];
     for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
       const FoundationContact& contact = data_.contacts[i];
+      if (contact.has_layer()) continue;
       const auto u = data_.displacement_of(contact, shape, data_.dofs[e], y.data());
       const auto v = data_.displacement_of(contact, shape, data_.dofs[e], rate.data());
       const auto moves = [&](double xi, double end) {
@@ -109,6 +114,7 @@ MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen:
     }
     start += shape.h;
   }
+  add_moving_layers(y, rate, out);
   return out;
 }
 

@@ -439,6 +439,22 @@ void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const d
     g[i] -= law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0])).gap;
 }
 
+void FoundationContact::append_samples(std::array<double, 2> ua, std::span<const double> dx,
+                                       std::span<const double> dy, std::vector<DepthAt>& out) const {
+  Values g;
+  penetrations(ua, dx, dy, 0.0, g);
+  for (int i = 0; i < samples_->count; ++i) {
+    const bool last = i + 1 == samples_->count;
+    out.push_back({last ? range_[1] : range_[0] + samples_->z[i] * (range_[1] - range_[0]), g[i]});
+  }
+}
+
+std::array<double, 2> FoundationContact::direction_rate(double xi) const {
+  if (!direction().turns) return {0.0, 0.0};
+  const AxisPoint axis = place_.axis->at(place_.s0 + xi * place_.ds);
+  return direction().rate(axis.angle, place_.ds * axis.curvature);
+}
+
 bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
                                 std::span<const double> dy, double distance) const {
   if (!law_.one_sided) return false;

@@ -7,6 +7,8 @@
 #include <string>
 #include <variant>
 
+#include "solver/discrete/layer_state.h"
+
 namespace snapthrough {
 namespace {
 
@@ -96,11 +98,26 @@ void SectionForces::add_foundations(const Eigen::VectorXd& y) {
     const ElementReader reader(structure_, y, element_, law);
     FoundationHere out{law, reader, lumped, part.range, {{part.range[0], part.range[1]}}};
     if (lumped) add_lumped(out);
-    if (part.contact)
+    if (has_layer(law))
+      out.contact = add_layer(y, part.foundation);
+    else if (part.contact)
       out.contact = part.contact->smooth_pieces({reader.start()[0], reader.start()[1]}, reader.gradient(0),
                                                 reader.gradient(1));
     foundations_.push_back(out);
   }
+}
+
+/// Adds the forces at ends of contact with a shear layer; returns the parts in contact.
+std::vector<ElementPart> SectionForces::add_layer(const Eigen::VectorXd& y, int foundation) {
+  const LayerState layer = layer_state(structure_, y, foundation);
+  for (std::size_t i = 0; i < layer.edges.size(); ++i) {
+    const LayerEdge& edge = layer.edges[i];
+    if (layer.elements[edge.cell] != element_) continue;
+    const Vec2 d = layer.cells[edge.cell].contact->direction_at(edge.xi);
+    const double force = -edge_force(layer.cells, layer.edges, i);
+    points_.push_back({edge.xi, {force * d[0], force * d[1], 0.0}});
+  }
+  return layer.on_element(element_);
 }
 
 void SectionForces::add_lumped(const FoundationHere& foundation) {
@@ -186,7 +203,7 @@ Vec2 SectionForces::density(double xi) const {
     f[1] -= difference * tangent[0];
   }
   for (const FoundationHere& foundation : foundations_) {
-    if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    if (foundation.lumped || !foundation.touches(xi)) continue;
     const Vec2 r = reaction(foundation, xi);
     for (int c = 0; c < 2; ++c) f[c] += r[c];
   }
@@ -208,6 +225,7 @@ void SectionForces::add_shear_layers(double xi, double from, double to, std::arr
   const Vec2 x0 = position(xi);
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.law.shear == 0.0) continue;
+    if (!foundation.touches(0.5 * (from + to))) continue;
     const double lo = std::max(from, foundation.range[0]);
     const double hi = std::min(to, foundation.range[1]);
     for (std::size_t i = 0; lo < hi && i < gauss_.points.size(); ++i) {
@@ -281,7 +299,7 @@ std::array<double, 3> SectionForces::at(double xi) const {
     add_shear_layers(xi, breaks[b], breaks[b + 1], sum);
   }
   for (const FoundationHere& foundation : foundations_) {
-    if (foundation.law.shear == 0.0 || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    if (foundation.law.shear == 0.0 || !foundation.is_cut(xi)) continue;
     const Vec2 n = normal_into(foundation.law, xi);
     const double cut = shear_layer(foundation.law, xi);
     sum[0] -= cut * n[0];

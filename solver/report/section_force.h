@@ -3,6 +3,7 @@
 /// Section forces of one element from equilibrium.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -45,6 +46,18 @@ class SectionForces {
     bool lumped;           ///< true: its reaction consists of point forces
     Vec2 range;
     std::vector<FoundationContact::Interval> contact;
+
+    /// Whether a place is inside the contact.
+    [[nodiscard]] bool touches(double xi) const {
+      return std::any_of(contact.begin(), contact.end(),
+                         [xi](const auto& part) { return part.from <= xi && xi <= part.to; });
+    }
+    /// Whether the part beyond a section begins in contact; the section at an end of contact is beyond it.
+    [[nodiscard]] bool is_cut(double xi) const {
+      return std::any_of(contact.begin(), contact.end(), [xi](const auto& part) {
+        return part.from <= xi && (xi < part.to || (xi == 1.0 && part.to == 1.0));
+      });
+    }
   };
   struct PointAction {
     double xi;
@@ -57,6 +70,7 @@ class SectionForces {
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations(const Eigen::VectorXd& y);
   void add_springs(const Eigen::VectorXd& y);
+  [[nodiscard]] std::vector<ElementPart> add_layer(const Eigen::VectorXd& y, int foundation);
   void add_lumped(const FoundationHere& foundation);
   /// Perfect axis at xi; the last value is cached.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;

@@ -24,7 +24,7 @@ const kBetweenFields = {
   not_fixed: 'fixed and displacement of a support',
   no_load: 'loads, displacements of supports and type of analysis',
   mechanism: 'the whole model',
-  unsupported: 'geometry and type of analysis; reaction and shear_stiffness',
+  unsupported: 'geometry and type of analysis',
   not_increasing: 'a fraction or a point and the one before it',
   invalid_pointer: 'a pointer, which is to something in /model',
   no_such_place: 'a pointer and the model',
