@@ -105,6 +105,10 @@ class FoundationContact {
   /// Appends the penetrations at the samples of the range, both ends included.
   void append_samples(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                       std::vector<DepthAt>& out) const;
+  /// @brief Intervals of the range in which K w - G w'' is above zero, with the penetration w + `above`;
+  /// ascending, `out` is overwritten. @pre no surface, constant gap
+  void pressed_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                         double above, std::vector<Interval>& out) const;
   /// Derivative of direction_at() by xi. @pre no surface
   [[nodiscard]] std::array<double, 2> direction_rate(double xi) const;
   /// @brief Whether the distance from touching is at most `distance` on the whole range.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "solver/numeric/bracket.h"
@@ -53,6 +54,13 @@ class ContactSet {
   [[nodiscard]] LayerParts parts() const;
 
  private:
+  /// End of a zone that is searched for.
+  struct Side {
+    bool begins;                       ///< the zone begins there
+    std::array<std::size_t, 2> reach;  ///< samples between which it lies
+    const Place*
+        other;  ///< end at the other side of the gap; null: the ground goes on to the end of the range
+  };
   struct Zone {
     std::size_t first, last;  ///< samples on the hull
     Place from, to;
@@ -60,10 +68,15 @@ class ContactSet {
 
   void gather(std::size_t cell);
   void gather_small_zones(std::size_t cell, std::vector<FoundationContact::DepthAt>& samples) const;
+  void gather_small_gaps(std::size_t cell, std::vector<FoundationContact::DepthAt>& samples) const;
   [[nodiscard]] std::vector<Zone> zones() const;
   [[nodiscard]] bool is_covered(const Place* left, const Place& at, const Place* right) const;
   void place_ends(std::vector<Zone>& zones) const;
-  [[nodiscard]] double excess(const Place& at, bool begins, const Place* other) const;
+  [[nodiscard]] double excess(const Place& at, const Side& side) const;
+  /// Excess at the start of the interval after a sample.
+  [[nodiscard]] double excess_after(std::size_t sample, const Side& side) const {
+    return excess(at(samples_[sample + 1].cell, start_of(sample + 1)), side);
+  }
   [[nodiscard]] Place at(std::size_t cell, double xi) const {
     return {cell, xi, cells_[cell].arc(xi), cells_[cell].depth(xi)};
   }
@@ -74,9 +87,13 @@ class ContactSet {
     return before.cell == cell ? before.xi : cells_[cell].contact->range()[0];
   }
   [[nodiscard]] std::array<std::size_t, 2> run_of(std::size_t sample) const;
-  [[nodiscard]] Place end_near(std::size_t sample, bool begins, std::array<std::size_t, 2> reach,
-                               const Place* other) const;
-  [[nodiscard]] Place end_between(std::size_t sample, bool begins, const Place* other) const;
+  [[nodiscard]] Place end_near(std::size_t sample, const Side& side) const {
+    const auto after = fall_after(sample, side);
+    return after ? *after : fall_before(sample, side);
+  }
+  [[nodiscard]] std::optional<Place> fall_after(std::size_t sample, const Side& side) const;
+  [[nodiscard]] Place fall_before(std::size_t sample, const Side& side) const;
+  [[nodiscard]] Place end_between(std::size_t sample, const Side& side) const;
 
   std::span<const LayerCell> cells_;
   ShearLayer layer_;
@@ -89,28 +106,47 @@ void ContactSet::gather(std::size_t cell) {
   const LayerCell& c = cells_[cell];
   std::vector<FoundationContact::DepthAt> samples;
   c.contact->append_samples(c.start, c.gradient(c.dx), c.gradient(c.dy), samples);
+  for (auto& sample : samples) sample.depth += c.above;
   gather_small_zones(cell, samples);
+  gather_small_gaps(cell, samples);
+  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
   const double near = EdgeSearch::one_place * c.contact->length();
   if (!samples_.empty() && c.arc(samples.front().xi) - samples_.back().s > near) ++run_;
   for (const auto& sample : samples) {
     const double s = c.arc(sample.xi);
     if (!samples_.empty() && s - samples_.back().s <= near) continue;
-    samples_.push_back({cell, sample.xi, s, sample.depth + c.above, run_});
+    samples_.push_back({cell, sample.xi, s, sample.depth, run_});
   }
 }
 
-/// Adds a sample to each interval with penetration that has none.
+/// Adds a sample in each interval with penetration, so that a zone begins without length.
 void ContactSet::gather_small_zones(std::size_t cell,
                                     std::vector<FoundationContact::DepthAt>& samples) const {
   const LayerCell& c = cells_[cell];
   std::vector<ElementPart> above;
   c.contact->contact_intervals(c.start, c.gradient(c.dx), c.gradient(c.dy), above, -c.above);
   for (const ElementPart& part : above) {
-    const auto next = std::lower_bound(samples.begin(), samples.end(), part.from,
-                                       [](const auto& sample, double xi) { return sample.xi < xi; });
-    if (next != samples.end() && next->xi <= part.to) continue;
     const double middle = 0.5 * (part.from + part.to);
-    samples.insert(next, {middle, c.depth(middle) - c.above});
+    samples.push_back({middle, c.depth(middle)});
+  }
+}
+
+/// Adds samples in each interval of length l in which the member would be pulled, so that a gap begins
+/// without length: in its middle, which leaves the hull, and at the distance l from there. A small gap has
+/// ends between these: its length is 3^(1/2) l where the pressure is a parabola.
+void ContactSet::gather_small_gaps(std::size_t cell, std::vector<FoundationContact::DepthAt>& samples) const {
+  const LayerCell& c = cells_[cell];
+  const auto [first, last] = c.contact->range();
+  std::vector<ElementPart> pressed;
+  c.contact->pressed_intervals(c.start, c.gradient(c.dx), c.gradient(c.dy), c.above, pressed);
+  pressed.push_back({last, last});
+  double from = first;
+  for (const ElementPart& part : pressed) {
+    const double middle = 0.5 * (from + part.from);
+    const double length = part.from - from;
+    for (const double xi : {middle - length, middle, middle + length})
+      if (length > 0.0 && xi > first && xi < last) samples.push_back({xi, c.depth(xi)});
+    from = part.to;
   }
 }
 
@@ -166,8 +202,8 @@ std::array<std::size_t, 2> ContactSet::run_of(std::size_t sample) const {
 
 /// Slope of the penetration less that of the ground beyond an end of contact: above zero on the side of the
 /// smaller s of a tangential end, below zero on the other.
-/// @param other end at the other side of the ground beyond; null: it reaches the end of the range
-double ContactSet::excess(const Place& at, bool begins, const Place* other) const {
+double ContactSet::excess(const Place& at, const Side& side) const {
+  const auto& [begins, reach, other] = side;
   const double k = layer_.decay();
   double rise = 0.0;
   if (other != nullptr) {
@@ -182,9 +218,9 @@ double ContactSet::excess(const Place& at, bool begins, const Place* other) cons
 }
 
 /// Place between the samples before and at an index at which the excess falls through zero.
-Place ContactSet::end_between(std::size_t sample, bool begins, const Place* other) const {
+Place ContactSet::end_between(std::size_t sample, const Side& side) const {
   const std::size_t cell = samples_[sample].cell;
-  const auto value = [&](double xi) { return excess(at(cell, xi), begins, other); };
+  const auto value = [&](double xi) { return excess(at(cell, xi), side); };
   const double first = start_of(sample);
   const double last = samples_[sample].xi;
   SignBracket bracket(first, value(first), last, value(last));
@@ -195,20 +231,20 @@ Place ContactSet::end_between(std::size_t sample, bool begins, const Place* othe
   return at(cell, bracket.best());
 }
 
-/// End of contact: the place nearest to a sample on the hull at which the excess falls through zero, or jumps
-/// through it at a bend of the axis. It may go as far as two other samples.
-Place ContactSet::end_near(std::size_t sample, bool begins, std::array<std::size_t, 2> reach,
-                           const Place* other) const {
-  const auto before = [&](std::size_t i) { return excess(samples_[i], begins, other); };
-  const auto after = [&](std::size_t i) {
-    return excess(at(samples_[i + 1].cell, start_of(i + 1)), begins, other);
-  };
+/// First place after a sample at which the excess falls through zero: between samples or at a bend of the
+/// axis. Empty if the excess is not above zero after the sample.
+std::optional<Place> ContactSet::fall_after(std::size_t sample, const Side& side) const {
   std::size_t i = sample;
-  for (; i < reach[1] && after(i) > 0.0; ++i)
-    if (before(i + 1) < 0.0) return end_between(i + 1, begins, other);
-  if (i > sample) return samples_[i];
-  for (; i > reach[0] && before(i) < 0.0; --i)
-    if (after(i - 1) > 0.0) return end_between(i, begins, other);
+  for (; i < side.reach[1] && excess_after(i, side) > 0.0; ++i)
+    if (excess(samples_[i + 1], side) < 0.0) return end_between(i + 1, side);
+  return i > sample ? std::optional(samples_[i]) : std::nullopt;
+}
+
+/// Last place before a sample, likewise; the sample itself if the excess is not below zero before it.
+Place ContactSet::fall_before(std::size_t sample, const Side& side) const {
+  std::size_t i = sample;
+  for (; i > side.reach[0] && excess(samples_[i], side) < 0.0; --i)
+    if (excess_after(i - 1, side) > 0.0) return end_between(i, side);
   return samples_[i];
 }
 
@@ -218,7 +254,7 @@ void ContactSet::place_ends(std::vector<Zone>& zones) const {
   if (zones.empty()) return;
   std::vector<Zone> out{zones.front()};
   out.front().from =
-      end_near(zones.front().first, true, {run_of(zones.front().first)[0], zones.front().last}, nullptr);
+      end_near(zones.front().first, {true, {run_of(zones.front().first)[0], zones.front().last}, nullptr});
   for (std::size_t i = 1; i < zones.size(); ++i) {
     const Zone& left = zones[i - 1];
     const Zone& right = zones[i];
@@ -228,8 +264,8 @@ void ContactSet::place_ends(std::vector<Zone>& zones) const {
     const auto start_of_right = std::array{std::max(left.last, run_of(right.first)[0]), right.last};
     for (int round = 0; round < EdgeSearch::rounds; ++round) {
       const double moved = to.s - from.s;
-      to = end_near(left.last, false, end_of_left, &from);
-      from = end_near(right.first, true, start_of_right, &to);
+      to = end_near(left.last, {false, end_of_left, &from});
+      from = end_near(right.first, {true, start_of_right, &to});
       if (std::abs(moved - (to.s - from.s)) <= EdgeSearch::place * cells_[to.cell].contact->length()) break;
     }
     if (to.s < from.s) {
@@ -239,7 +275,7 @@ void ContactSet::place_ends(std::vector<Zone>& zones) const {
     }
   }
   out.back().to =
-      end_near(zones.back().last, false, {zones.back().first, run_of(zones.back().last)[1]}, nullptr);
+      end_near(zones.back().last, {false, {zones.back().first, run_of(zones.back().last)[1]}, nullptr});
   zones = std::move(out);
 }
 
@@ -348,15 +384,10 @@ bool is_held(std::span<const LayerCell> cells, const LayerEdge& edge) {
   return edge.xi == range[0] || edge.xi == range[1];
 }
 
-double pressure_at(std::span<const LayerCell> cells, const LayerEdge& edge) {
-  const LayerCell& cell = cells[edge.cell];
-  return cell.contact->modulus() * cell.depth(edge.xi) - cell.contact->shear() * cell.bend(edge.xi);
-}
-
 double edge_rate(std::span<const LayerCell> cells, std::span<const LayerCell> rates,
                  std::span<const LayerEdge> edges, std::size_t index) {
   const LayerEdge& edge = edges[index];
-  const double pressure = pressure_at(cells, edge);
+  const double pressure = cells[edge.cell].pressure(edge.xi);
   if (is_held(cells, edge) || !(pressure > 0.0)) return 0.0;
   const LayerCell& rate = rates[edge.cell];
   const double rise = resistance(rates, edges, index);

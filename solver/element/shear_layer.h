@@ -46,6 +46,10 @@ struct LayerCell {
   }
   /// Second derivative of depth() by arc length.
   [[nodiscard]] double bend(double xi) const;
+  /// Contact pressure K w - G w'' where the member touches.
+  [[nodiscard]] double pressure(double xi) const {
+    return contact->modulus() * depth(xi) - contact->shear() * bend(xi);
+  }
   /// Arc length from the member's start.
   [[nodiscard]] double arc(double xi) const { return contact->start() + xi * contact->length(); }
   [[nodiscard]] std::span<const double> gradient(const std::array<double, kMaxOrder>& d) const {
@@ -94,8 +98,6 @@ struct LayerEdge {
                                 std::size_t index);
 /// Whether an end of contact stays at its place when the displacements change: at an end of a cell.
 [[nodiscard]] bool is_held(std::span<const LayerCell> cells, const LayerEdge& edge);
-/// @brief Contact pressure K w - G w'' at the inner side of an end.
-[[nodiscard]] double pressure_at(std::span<const LayerCell> cells, const LayerEdge& edge);
 /// @brief Rate of the arc length of an end of contact, G (v' - c') / (K w - G w''), where c is the surface
 /// beyond the end that follows the changes v of the penetration.
 /// @param rates changes of the cells' penetrations
