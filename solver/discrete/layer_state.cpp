@@ -32,4 +32,11 @@ LayerState layer_state(const Structure& structure, const Eigen::VectorXd& y, int
   return out;
 }
 
+std::vector<LayerState> layer_states(const Structure& structure, const Eigen::VectorXd& y) {
+  std::vector<LayerState> out(structure.foundation_laws.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (has_layer(structure.foundation_laws[i])) out[i] = layer_state(structure, y, static_cast<int>(i));
+  return out;
+}
+
 }  // namespace snapthrough

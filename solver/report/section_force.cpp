@@ -7,8 +7,6 @@
 #include <string>
 #include <variant>
 
-#include "solver/discrete/layer_state.h"
-
 namespace snapthrough {
 namespace {
 
@@ -17,7 +15,7 @@ using Vec2 = std::array<double, 2>;
 }  // namespace
 
 SectionForces::SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                             double lambda, int element)
+                             double lambda, const std::vector<LayerState>& layers, int element)
     : structure_(structure),
       model_(model),
       element_(element),
@@ -27,7 +25,7 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
   add_loads(lambda / structure.scales.load, 1.0);
   if (pressure_.acts()) release_end_of_pressure(y);
-  add_foundations(y);
+  add_foundations(y, layers);
   add_springs(y);
 }
 
@@ -87,7 +85,7 @@ void SectionForces::add_dead(const LineLoad& load, double factor) {
   }
 }
 
-void SectionForces::add_foundations(const Eigen::VectorXd& y) {
+void SectionForces::add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers) {
   const auto before = [](const FoundationPart& part, int element) { return part.element < element; };
   const auto& parts = structure_.foundation_parts;
   for (auto at = std::lower_bound(parts.begin(), parts.end(), element_, before);
@@ -98,18 +96,19 @@ void SectionForces::add_foundations(const Eigen::VectorXd& y) {
     const ElementReader reader(structure_, y, element_, law);
     FoundationHere out{law, reader, lumped, part.range, {{part.range[0], part.range[1]}}};
     if (lumped) add_lumped(out);
-    if (has_layer(law))
-      out.contact = add_layer(y, part.foundation);
-    else if (part.contact)
+    if (const LayerState& layer = layers[static_cast<std::size_t>(part.foundation)]; !layer.cells.empty()) {
+      out.contact = layer.on_element(element_);
+      add_layer_forces(layer);
+    } else if (part.contact) {
       out.contact = part.contact->smooth_pieces({reader.start()[0], reader.start()[1]}, reader.gradient(0),
                                                 reader.gradient(1));
+    }
     foundations_.push_back(out);
   }
 }
 
-/// Adds the forces at ends of contact with a shear layer; returns the parts in contact.
-std::vector<ElementPart> SectionForces::add_layer(const Eigen::VectorXd& y, int foundation) {
-  const LayerState layer = layer_state(structure_, y, foundation);
+/// Adds the forces at ends of contact with a shear layer.
+void SectionForces::add_layer_forces(const LayerState& layer) {
   for (std::size_t i = 0; i < layer.edges.size(); ++i) {
     const LayerEdge& edge = layer.edges[i];
     if (layer.elements[edge.cell] != element_) continue;
@@ -117,7 +116,6 @@ std::vector<ElementPart> SectionForces::add_layer(const Eigen::VectorXd& y, int 
     const double force = -edge_force(layer.cells, layer.edges, i);
     points_.push_back({edge.xi, {force * d[0], force * d[1], 0.0}});
   }
-  return layer.on_element(element_);
 }
 
 void SectionForces::add_lumped(const FoundationHere& foundation) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/discrete/element_reader.h"
+#include "solver/discrete/layer_state.h"
 #include "solver/discrete/structure.h"
 #include "solver/model/member_loads.h"
 #include "solver/model/model.h"
@@ -25,8 +26,9 @@ namespace snapthrough {
 class SectionForces {
  public:
   /// @param lambda scaled load factor of the state y
+  /// @param layers see layer_states(); not used after construction
   SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
-                int element);
+                const std::vector<LayerState>& layers, int element);
 
   /// (force x, force y, moment) at xi in [0, 1] of the part beyond xi on the part before it, scaled.
   [[nodiscard]] std::array<double, 3> at(double xi) const;
@@ -68,9 +70,9 @@ class SectionForces {
   void add_load(const Load& load, double factor);
   void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
-  void add_foundations(const Eigen::VectorXd& y);
+  void add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers);
   void add_springs(const Eigen::VectorXd& y);
-  [[nodiscard]] std::vector<ElementPart> add_layer(const Eigen::VectorXd& y, int foundation);
+  void add_layer_forces(const LayerState& layer);
   void add_lumped(const FoundationHere& foundation);
   /// Perfect axis at xi; the last value is cached.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;

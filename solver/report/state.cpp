@@ -22,7 +22,7 @@ namespace snapthrough {
 namespace {
 
 MemberState member_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                         double lambda, int member, int points) {
+                         double lambda, const std::vector<LayerState>& layers, int member, int points) {
   const double L = structure.scales.length;
   const double F = structure.scales.force;
   const StressFreeAxis& axis = *structure.stress_free[member];
@@ -38,7 +38,7 @@ MemberState member_state(const Structure& structure, const Model& model, const E
     if (place.element != current) {
       current = place.element;
       reader = std::make_unique<ElementReader>(structure, y, current);
-      forces = std::make_unique<SectionForces>(structure, model, y, lambda, current);
+      forces = std::make_unique<SectionForces>(structure, model, y, lambda, layers, current);
     }
     const auto u = reader->displacement(place.xi);
     const auto n = forces->at(place.xi);
@@ -108,8 +108,9 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
 std::vector<MemberState> member_states(const Structure& structure, const Model& model,
                                        const Eigen::VectorXd& y, double lambda, int points) {
   std::vector<MemberState> out;
+  const std::vector<LayerState> layers = layer_states(structure, y);
   for (std::size_t m = 0; m < model.members.size(); ++m)
-    out.push_back(member_state(structure, model, y, lambda, static_cast<int>(m), points));
+    out.push_back(member_state(structure, model, y, lambda, layers, static_cast<int>(m), points));
   const auto state_of = [&](std::size_t spring) { return rod_state(structure, model, spring, y, points); };
   insert_rods(model.springs, state_of, out);
   return out;

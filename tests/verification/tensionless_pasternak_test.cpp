@@ -51,6 +51,20 @@ TEST(WeightlessBeamOnPasternakGround, LiftsOffWhereTheExactSolutionDoes) {
   }
 }
 
+/// The pressure jumps inside an element, at an end of contact: the order is min(2 p, 5).
+TEST(WeightlessBeamOnPasternakGround, ConvergesWithTheOrder) {
+  const auto error = [](int elements, int order) {
+    Model model = beam_on_ground(6.0, 0.1, GroundEnd::endless);
+    model.loads = {force_at(at_member("m", 0.5), 0.0, -1.0)};
+    const State state = linear_state(model, fixed_mesh(elements, order));
+    return std::abs(-state.members[0].y[state.members[0].y.size() / 2] - 0.510195946033965);
+  };
+  for (const int order : {1, 2, 3}) {
+    const double slope = std::log(error(34, order) / error(66, order)) / std::log(66.0 / 34.0);
+    EXPECT_GT(slope, std::min(2.0 * order, 5.0) - 0.2) << order;
+  }
+}
+
 struct Heavy {
   double G, force, lift_off, touch_down, depth;
 };
@@ -122,6 +136,34 @@ TEST(BeamOnPasternakGround, GoesToTheWinklerFoundation) {
   EXPECT_GT(first, 0.0);
   EXPECT_NEAR(second, 0.01 * first, 0.002 * first);
   EXPECT_NEAR(depth(1e-12), kWinkler, 1e-9);
+}
+
+struct PinnedColumn {
+  double G;
+  GroundEnd end;
+  double load;
+};
+
+/// Values of data/column_between_layers.py: the contact of the mode, without pressure before it.
+TEST(ColumnBetweenPasternakGround, HasTheBucklingLoadOfItsOwnContact) {
+  constexpr PinnedColumn kColumns[] = {{1.0, GroundEnd::free, 116.40312039},
+                                       {5.0, GroundEnd::free, 119.73622766},
+                                       {20.0, GroundEnd::free, 129.77710413},
+                                       {20.0, GroundEnd::endless, 131.26645626},
+                                       {50.0, GroundEnd::endless, 149.59324718}};
+  for (const PinnedColumn& column : kColumns) {
+    Model model = straight(1.0, 1.0, 1e8, "xy", "y");
+    model.foundations = {one_sided("m", 3000.0, Side::right), one_sided("m", 3000.0, Side::left)};
+    model.foundations[1].id = "above";
+    for (Foundation& ground : model.foundations) {
+      ground.shear_stiffness = column.G;
+      ground.ground_end = column.end;
+    }
+    model.loads = {force_at(at_node("b"), -1.0, 0.0)};
+    const Result result = solve_soundly(model, buckling_on(fixed_mesh(24, 6)));
+    ASSERT_FALSE(!result.buckling || result.buckling->load_factors.empty()) << column.G;
+    expect_relative(result.buckling->load_factors[0], column.load, 3e-8, "buckling load");
+  }
 }
 
 struct Arch {
