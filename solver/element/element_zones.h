@@ -131,7 +131,11 @@ void ElementSetOf<P>::freeze_zones(const MovingZones& zones, const Eigen::Vector
       for (const MovingZone& zone : zones[data_.contacts[i].foundation()]) {
         const double from = std::max(first, (zone.from - start) / shape.h);
         const double to = std::min(last, (zone.to - start) / shape.h);
-        if (to > from) out.contacts[i].push_back({from, to});
+        const double point = std::min(from, last);
+        if (to > from)
+          out.contacts[i].push_back({from, to});
+        else if (zone.from == zone.to && from - to <= ZoneTolerances::joined)  // a layer touches at one point
+          out.contacts[i].push_back({point, point});
       }
     }
     for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
