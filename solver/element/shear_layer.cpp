@@ -40,7 +40,8 @@ struct Place {
   double xi = 0.0;
   double s = 0.0;
   double depth = 0.0;
-  int run = 0;  ///< number of the run of adjoining cells
+  int run = 0;          ///< number of the run of adjoining cells
+  bool tested = false;  ///< takes part in the hull
 };
 
 /// Finds the contact set: the smallest surface above the penetrations is that of their hull in which
@@ -50,6 +51,7 @@ class ContactSet {
  public:
   ContactSet(std::span<const LayerCell> cells, const ShearLayer& layer) : cells_(cells), layer_(layer) {
     for (std::size_t i = 0; i < cells.size(); ++i) gather(i);
+    if (!samples_.empty()) samples_.back().tested = true;
   }
   [[nodiscard]] LayerParts parts() const;
 
@@ -67,8 +69,8 @@ class ContactSet {
   };
 
   void gather(std::size_t cell);
-  void gather_small_zones(std::size_t cell, std::vector<FoundationContact::DepthAt>& samples) const;
-  void gather_small_gaps(std::size_t cell, std::vector<FoundationContact::DepthAt>& samples) const;
+  void gather_small_zones(std::size_t cell, std::vector<Place>& samples) const;
+  void gather_small_gaps(std::size_t cell, std::vector<Place>& samples) const;
   [[nodiscard]] std::vector<Zone> zones() const;
   [[nodiscard]] bool is_covered(const Place* left, const Place& at, const Place* right) const;
   void place_ends(std::vector<Zone>& zones) const;
@@ -101,40 +103,49 @@ class ContactSet {
   int run_ = 0;
 };
 
-/// Appends the samples of a cell; the place that it shares with the cell before it has one sample.
+/// Appends the samples of a cell; the place that it shares with the cell before it has one sample. Those near
+/// the ends of a cell are not tested: the axis bends at nodes by what the mesh does not resolve, and the
+/// surface does not leave the member there.
 void ContactSet::gather(std::size_t cell) {
   const LayerCell& c = cells_[cell];
-  std::vector<FoundationContact::DepthAt> samples;
-  c.contact->append_samples(c.start, c.gradient(c.dx), c.gradient(c.dy), samples);
-  for (auto& sample : samples) sample.depth += c.above;
+  std::vector<FoundationContact::DepthAt> depths;
+  c.contact->append_samples(c.start, c.gradient(c.dx), c.gradient(c.dy), depths);
+  const std::size_t quarter = depths.size() / 4;
+  std::vector<Place> samples;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    samples.push_back({cell, depths[i].xi, c.arc(depths[i].xi), depths[i].depth + c.above, 0,
+                       i >= quarter && i + quarter < depths.size()});
   gather_small_zones(cell, samples);
   gather_small_gaps(cell, samples);
-  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
+  std::sort(samples.begin(), samples.end(), [](const Place& a, const Place& b) { return a.xi < b.xi; });
   const double near = EdgeSearch::one_place * c.contact->length();
-  if (!samples_.empty() && c.arc(samples.front().xi) - samples_.back().s > near) ++run_;
-  for (const auto& sample : samples) {
-    const double s = c.arc(sample.xi);
-    if (!samples_.empty() && s - samples_.back().s <= near) continue;
-    samples_.push_back({cell, sample.xi, s, sample.depth, run_});
+  if (samples_.empty() || samples.front().s - samples_.back().s > near) {
+    if (!samples_.empty()) samples_.back().tested = true;  // a run of cells ends
+    samples.front().tested = true;
+    ++run_;
+  }
+  for (Place& sample : samples) {
+    if (!samples_.empty() && sample.s - samples_.back().s <= near) continue;
+    sample.run = run_;
+    samples_.push_back(sample);
   }
 }
 
 /// Adds a sample in each interval with penetration, so that a zone begins without length.
-void ContactSet::gather_small_zones(std::size_t cell,
-                                    std::vector<FoundationContact::DepthAt>& samples) const {
+void ContactSet::gather_small_zones(std::size_t cell, std::vector<Place>& samples) const {
   const LayerCell& c = cells_[cell];
   std::vector<ElementPart> above;
   c.contact->contact_intervals(c.start, c.gradient(c.dx), c.gradient(c.dy), above, -c.above);
   for (const ElementPart& part : above) {
-    const double middle = 0.5 * (part.from + part.to);
-    samples.push_back({middle, c.depth(middle)});
+    samples.push_back(at(cell, 0.5 * (part.from + part.to)));
+    samples.back().tested = true;
   }
 }
 
 /// Adds samples in each interval of length l in which the member would be pulled, so that a gap begins
 /// without length: in its middle, which leaves the hull, and at the distance l from there. A small gap has
 /// ends between these: its length is 3^(1/2) l where the pressure is a parabola.
-void ContactSet::gather_small_gaps(std::size_t cell, std::vector<FoundationContact::DepthAt>& samples) const {
+void ContactSet::gather_small_gaps(std::size_t cell, std::vector<Place>& samples) const {
   const LayerCell& c = cells_[cell];
   const auto [first, last] = c.contact->range();
   std::vector<ElementPart> pressed;
@@ -144,8 +155,11 @@ void ContactSet::gather_small_gaps(std::size_t cell, std::vector<FoundationConta
   for (const ElementPart& part : pressed) {
     const double middle = 0.5 * (from + part.from);
     const double length = part.from - from;
-    for (const double xi : {middle - length, middle, middle + length})
-      if (length > 0.0 && xi > first && xi < last) samples.push_back({xi, c.depth(xi)});
+    for (const double xi : {middle - length, middle, middle + length}) {
+      if (!(length > 0.0 && xi > first && xi < last)) continue;
+      samples.push_back(at(cell, xi));
+      samples.back().tested = true;
+    }
     from = part.to;
   }
 }
@@ -166,28 +180,36 @@ bool ContactSet::is_covered(const Place* left, const Place& at, const Place* rig
                          right->depth * sinh_ratio(k * (at.s - left->s), whole);
 }
 
-/// Zones of the hull of the samples: neighbouring samples on the hull belong to one zone.
+/// Zones of the hull of the tested samples: neighbouring ones on the hull belong to one zone.
 std::vector<ContactSet::Zone> ContactSet::zones() const {
-  std::vector<std::size_t> hull;
+  struct Tested {
+    std::size_t sample, number;
+  };
+  std::vector<Tested> hull;
   const auto drop_covered = [&](const Place* next) {
     while (!hull.empty()) {
-      const Place* before = hull.size() > 1 ? &samples_[hull[hull.size() - 2]] : nullptr;
-      if (!is_covered(before, samples_[hull.back()], next)) break;
+      const Place* before = hull.size() > 1 ? &samples_[hull[hull.size() - 2].sample] : nullptr;
+      if (!is_covered(before, samples_[hull.back().sample], next)) break;
       hull.pop_back();
     }
   };
+  std::size_t number = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (!samples_[i].tested) continue;
+    ++number;
     if (!(samples_[i].depth > 0.0)) continue;
     drop_covered(&samples_[i]);
-    hull.push_back(i);
+    hull.push_back({i, number});
   }
   drop_covered(nullptr);
   std::vector<Zone> out;
-  for (const std::size_t i : hull) {
-    if (out.empty() || i != out.back().last + 1 || samples_[i].run != samples_[i - 1].run)
+  std::size_t last = 0;
+  for (const auto& [i, tested] : hull) {
+    if (out.empty() || tested != last + 1 || samples_[i].run != samples_[out.back().last].run)
       out.push_back({i, i, samples_[i], samples_[i]});
     else
       out.back().last = i;
+    last = tested;
   }
   return out;
 }

@@ -29,7 +29,7 @@ struct Ground {
 };
 
 constexpr double kModulus = 90.0;
-constexpr int kElements = 4;
+constexpr int kElements = 12;
 
 Model on_ground(const Ground& ground) {
   Model model;
