@@ -110,11 +110,11 @@ void ContactSet::gather(std::size_t cell) {
   const LayerCell& c = cells_[cell];
   std::vector<FoundationContact::DepthAt> depths;
   c.contact->append_samples(c.start, c.gradient(c.dx), c.gradient(c.dy), depths);
-  const std::size_t quarter = depths.size() / 4;
+  const std::size_t margin = depths.size() / 6;
   std::vector<Place> samples;
   for (std::size_t i = 0; i < depths.size(); ++i)
     samples.push_back({cell, depths[i].xi, c.arc(depths[i].xi), depths[i].depth + c.above, 0,
-                       i >= quarter && i + quarter < depths.size()});
+                       i >= margin && i + margin < depths.size()});
   gather_small_zones(cell, samples);
   gather_small_gaps(cell, samples);
   std::sort(samples.begin(), samples.end(), [](const Place& a, const Place& b) { return a.xi < b.xi; });
