@@ -274,20 +274,23 @@ Place ContactSet::fall_before(std::size_t sample, const Side& side) const {
 /// distance from the solution. Zones between which no gap is left are one.
 void ContactSet::place_ends(std::vector<Zone>& zones) const {
   if (zones.empty()) return;
+  // an end lies between the samples of the zones before and behind, in the run of its cells
+  const auto reach = [&](std::size_t zone, std::size_t sample) {
+    const auto [first, last] = run_of(sample);
+    return std::array{zone > 0 ? std::max(zones[zone - 1].last, first) : first,
+                      zone + 1 < zones.size() ? std::min(zones[zone + 1].first, last) : last};
+  };
   std::vector<Zone> out{zones.front()};
-  out.front().from =
-      end_near(zones.front().first, {true, {run_of(zones.front().first)[0], zones.front().last}, nullptr});
+  out.front().from = end_near(zones.front().first, {true, reach(0, zones.front().first), nullptr});
   for (std::size_t i = 1; i < zones.size(); ++i) {
     const Zone& left = zones[i - 1];
     const Zone& right = zones[i];
     Place to = samples_[left.last];
     Place from = samples_[right.first];
-    const auto end_of_left = std::array{left.first, std::min(right.first, run_of(left.last)[1])};
-    const auto start_of_right = std::array{std::max(left.last, run_of(right.first)[0]), right.last};
     for (int round = 0; round < EdgeSearch::rounds; ++round) {
       const double moved = to.s - from.s;
-      to = end_near(left.last, {false, end_of_left, &from});
-      from = end_near(right.first, {true, start_of_right, &to});
+      to = end_near(left.last, {false, reach(i - 1, left.last), &from});
+      from = end_near(right.first, {true, reach(i, right.first), &to});
       if (std::abs(moved - (to.s - from.s)) <= EdgeSearch::place * cells_[to.cell].contact->length()) break;
     }
     if (to.s < from.s) {
@@ -296,8 +299,7 @@ void ContactSet::place_ends(std::vector<Zone>& zones) const {
       out.back().from = from;
     }
   }
-  out.back().to =
-      end_near(zones.back().last, {false, {zones.back().first, run_of(zones.back().last)[1]}, nullptr});
+  out.back().to = end_near(zones.back().last, {false, reach(zones.size() - 1, zones.back().last), nullptr});
   zones = std::move(out);
 }
 
@@ -305,7 +307,8 @@ LayerParts ContactSet::parts() const {
   std::vector<Zone> found = zones();
   place_ends(found);
   LayerParts out(cells_.size());
-  for (const Zone& zone : found) {
+  for (Zone& zone : found) {
+    if (zone.from.s > zone.to.s) zone.from = zone.to;  // rounding of a zone without length
     for (std::size_t cell = zone.from.cell; cell <= zone.to.cell; ++cell) {
       const auto [start, end] = cells_[cell].contact->range();
       const double from = cell == zone.from.cell ? zone.from.xi : start;
