@@ -200,5 +200,18 @@ TEST(ArchOnPasternakGround, HasTheLimitLoadOfCollocation) {
   }
 }
 
+/// solve_soundly() expects that the results' forces add up to nothing: results and equations integrate alike
+/// where the normal turns within elements.
+TEST(ArchOnPasternakGround, IsInBalanceOnACoarseMesh) {
+  Model model = straight(2.0, 1.0, 1e4, "xyr", "xyr");
+  model.members[0].curve = ArcCurve{-140.0};
+  model.foundations = {one_sided("m", 200.0, Side::left)};
+  model.foundations[0].shear_stiffness = 40.0;
+  model.loads = {force_at(at_member("m", 0.4), 0.0, -5.0)};
+  const Result result = solve_soundly(model, static_on(fixed_mesh(4, 3), Geometry::nonlinear));
+  ASSERT_FALSE(result.states.empty());
+  EXPECT_FALSE(result.states.back().foundations[0].contact.empty());
+}
+
 }  // namespace
 }  // namespace snapthrough
