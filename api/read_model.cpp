@@ -24,6 +24,11 @@ static void read(const Value& value, Reaction& out) {
   read_named(value, kNames, out);
 }
 
+static void read(const Value& value, GroundEnd& out) {
+  static constexpr Named<GroundEnd> kNames[] = {{"free", GroundEnd::free}, {"endless", GroundEnd::endless}};
+  read_named(value, kNames, out);
+}
+
 void read(const Value& value, Side& out) {
   static constexpr Named<Side> kNames[] = {{"left", Side::left}, {"right", Side::right}};
   read_named(value, kNames, out);
@@ -311,6 +316,7 @@ static void read(const Value& value, Foundation& out) {
   in.required("member", out.member);
   read_law(in, out);
   in.optional("shear_stiffness", out.shear_stiffness);
+  in.optional("ground_end", out.ground_end);
   in.optional("reaction", out.reaction);
   in.optional("range", out.range);
   if (const auto gap = in.find("gap")) {

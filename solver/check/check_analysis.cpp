@@ -58,10 +58,20 @@ void check_fixed_mesh(const Place& place, const Model& model, const Discretizati
   require_between(place / "order", mesh.order, 1, kMaxOrder);
 }
 
+bool has_one_sided_layer(const Model& model) {
+  return std::any_of(model.foundations.begin(), model.foundations.end(), [](const Foundation& foundation) {
+    return foundation.shear_stiffness > 0.0 && foundation.reaction != Reaction::bilateral;
+  });
+}
+
 void check_discretization(const Place& place, const Model& model, const Discretization& mesh,
                           const Names& names) {
   if (mesh.fixed_mesh) {
     check_fixed_mesh(place, model, mesh, names);
+    if (mesh.foundation == FoundationRule::lumped && has_one_sided_layer(model)) {
+      (place / "foundation")
+          .report("not_supported", "a one-sided foundation with a shear layer is not lumped: use consistent");
+    }
   } else if (!(mesh.accuracy > 0.0 && mesh.accuracy <= kMaxAccuracy)) {
     (place / "accuracy")
         .report("out_of_range", "accuracy must be above 0 and at most " + text(kMaxAccuracy) + ", got " +

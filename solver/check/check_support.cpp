@@ -195,6 +195,17 @@ void check_tangential(const Place& place, const Foundation& foundation) {
   }
 }
 
+/// Requires what the surface of the ground beside contact is computed for.
+void check_one_sided_layer(const Place& place, const Foundation& foundation) {
+  const bool is_plane = foundation.gap_along.empty() && !foundation.outline;
+  if (!is_plane || foundation.law || !(foundation.stiffness > 0.0) || !std::isfinite(foundation.stiffness)) {
+    place.report(
+        "not_supported",
+        "the shear layer of a one-sided foundation needs a constant stiffness above zero, no outline "
+        "and no gap that varies");
+  }
+}
+
 void check_prescribed(const Place& place, double value, bool fixed) {
   if (require_finite(place, value) && std::abs(value) > 0.0 && !fixed) {
     place.report("not_fixed", place.name() + " is prescribed but is not among the fixed components");
@@ -320,7 +331,14 @@ void check_foundations(const Place& model, const Model& data, const Names& names
     if (foundation.tangential) {
       check_tangential(place, foundation);
     }
-    require_not_negative(place / "shear_stiffness", foundation.shear_stiffness);
+    if (require_not_negative(place / "shear_stiffness", foundation.shear_stiffness) &&
+        foundation.shear_stiffness > 0.0 && foundation.reaction != Reaction::bilateral) {
+      check_one_sided_layer(place / "shear_stiffness", foundation);
+    } else if (foundation.ground_end != GroundEnd::free) {
+      (place / "ground_end")
+          .report("not_supported",
+                  "only a one-sided foundation with shear_stiffness has ground beyond its range");
+    }
     require_fractions(place / "range", foundation.range);
     if (foundation.gap_along.empty()) {
       check_gap(place / "gap", foundation.gap, foundation.reaction);

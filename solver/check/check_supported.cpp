@@ -16,18 +16,6 @@ void report(const Place& place, const char* what) {
   place.report("unsupported", std::string(what) + " is not supported by this version yet");
 }
 
-/// Reports `/model/<list>/<index>/<field>` for each item with the feature (the item if `field` is empty).
-template <class Items, class Has>
-void report_items(const Place& root, std::string_view list, const Items& items, std::string_view field,
-                  const char* what, Has has) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (has(items[i])) {
-      const Place item = root / "model" / list / i;
-      report(field.empty() ? item : item / field, what);
-    }
-  }
-}
-
 /// Only static analyses are possible with linear geometry, because small displacements lose no stability.
 void find_linear_path(const Place& root, const Model&, const Analysis& analysis, const char* what) {
   if (analysis.geometry == Geometry::linear && analysis.type != AnalysisType::static_ &&
@@ -36,15 +24,7 @@ void find_linear_path(const Place& root, const Model&, const Analysis& analysis,
   }
 }
 
-void find_one_sided_shear_layer(const Place& root, const Model& model, const Analysis&, const char* what) {
-  report_items(root, "foundations", model.foundations, "shear_stiffness", what,
-               [](const Foundation& foundation) {
-                 return foundation.shear_stiffness > 0.0 && foundation.reaction != Reaction::bilateral;
-               });
-}
-
 constexpr Feature kNotYet[] = {
-    {"a one-sided foundation with shear_stiffness", find_one_sided_shear_layer},
     {"geometry linear with another analysis type than static or vibration", find_linear_path},
 };
 

@@ -104,7 +104,8 @@ std::vector<SupportSpring> contact_springs(const Structure& structure, const Fou
 std::vector<SupportSpring> shear_layer_springs(const Structure& structure, const FoundationLaw& foundation,
                                                int element, std::array<double, 2> range) {
   const int p = structure.mesh.order;
-  const Quadrature gauss = gauss_legendre(p + 1);
+  const Quadrature gauss =
+      foundation.law.one_sided ? FoundationContact::quadrature(p) : gauss_legendre(p + 1);
   const double width = range[1] - range[0];
   std::vector<SupportSpring> out;
   out.reserve(gauss.points.size());

@@ -40,7 +40,8 @@ namespace snapthrough {
                                                          const ElementReader& reader, int element,
                                                          FoundationContact::Interval interval);
 
-/// @brief Springs with the energy 1/2 G (dw/ds)^2 of the shear layer, at Gauss points of part of an element.
+/// @brief Springs with the energy 1/2 G (dw/ds)^2 of the shear layer, at Gauss points of part of an element:
+/// those of contact for a one-sided foundation, which acts on the parts in contact.
 ///
 /// w' = u'.n - kappa u.t along the initial normal n. The layer ends with the range, with a free edge (no
 /// force from the ground beyond).

@@ -261,7 +261,7 @@ void Builder::add_foundation_law(int element, int index) {
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
   const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
-  if (law.shear > 0.0)
+  if (law.shear > 0.0 && !law.law.one_sided)
     for (const SupportSpring& support : shear_layer_springs(out_, law, element, range))
       elements_->add_spring(support);
   if (law.law.stiffness == 0.0) return;

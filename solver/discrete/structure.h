@@ -149,7 +149,7 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
                        Eigen::Ref<Eigen::VectorXd> f);
 
 /// Law of a foundation on an element, with its stiffness bounded by Structure::stiffest; that of a rigid one
-/// is Structure::stiffest_rigid.
+/// is Structure::stiffest_rigid. A shear layer has the stiffness of the model on all elements.
 [[nodiscard]] FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element);
 
 /// @brief Builds the structure of a model.

@@ -30,7 +30,7 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
 
 FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {
   FoundationLaw law = foundation;
-  if (law.law.one_sided) {
+  if (law.law.one_sided && law.shear == 0.0) {
     const bool is_rigid = !std::isfinite(law.law.stiffness);
     law.stiffest =
         (is_rigid ? structure.stiffest_rigid : structure.stiffest)[static_cast<std::size_t>(element)];

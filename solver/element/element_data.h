@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "solver/element/element_set.h"
+#include "solver/element/shear_layer.h"
 #include "solver/numeric/rounding.h"
 
 namespace snapthrough {
@@ -68,8 +69,29 @@ struct ElementData {
   /// Functional of the penetration along d, with zero stiffness and gap. @param integrals the A_r there
   [[nodiscard]] static Functional penetration(std::array<double, 2> d, double h,
                                               std::span<const double> integrals);
-  /// Parts of the element on which a contact acts at displacements u; `out` is overwritten.
+  /// Parts of the element on which a contact without shear layer acts at displacements u; `out` is
+  /// overwritten.
   void acting_parts(std::size_t contact, const ContactDisplacement& u, std::vector<ElementPart>& out) const;
+
+  /// Contacts of one one-sided foundation with a shear layer, ascending.
+  struct Layer {
+    int foundation = 0;
+    std::vector<std::size_t> contacts;
+    std::vector<int> elements;
+  };
+  /// Enters the next contact, on an element, in the lists of layers.
+  void add_to_layer(const FoundationContact& contact, int element);
+  /// Displacements under a layer at the unknowns y.
+  [[nodiscard]] std::vector<LayerCell> cells_of(const Layer& layer, const double* y) const;
+  /// Changes of the penetrations under a layer along a direction.
+  [[nodiscard]] std::vector<LayerCell> rates_of(const Layer& layer, const double* along) const;
+  /// Parts on which the contacts of a layer act at displacements of its cells.
+  [[nodiscard]] LayerParts acting_parts(const Layer& layer, const std::vector<LayerCell>& cells) const;
+  /// Parts on which contacts act at y: one list for each contact, empty without a shear layer; no lists in a
+  /// mesh without layers.
+  [[nodiscard]] LayerParts parts_on_layers(const double* y) const;
+  /// Functional of the derivative of the penetration by xi, with the stiffness of the shear layer.
+  [[nodiscard]] Functional slope_functional(const FoundationContact& contact, double h, double xi) const;
   /// Whether a spring acts at the unknowns y.
   [[nodiscard]] bool acts(const Functional& f, const ElementDofs& at, const double* y) const;
 
@@ -87,6 +109,9 @@ struct ElementData {
   std::vector<Functional> springs;
   std::vector<FoundationContact> contacts;
   std::vector<Touch> contact_touch;
+  std::vector<Layer> layers;
+  /// For each contact the number of its layer, or -1, and its place in it.
+  std::vector<std::pair<int, std::size_t>> layer_of_contact;
   /// Functionals at the Gauss points of each contact's whole range.
   std::vector<std::vector<Functional>> whole_contacts;
 };
@@ -124,6 +149,11 @@ class ElementSetOf final : public ElementSet {
 
  private:
   void append(typename ElementData<P>::Shape shape, const ElementDofs& dofs);
+  void add_moving_layers(const Eigen::VectorXd& y, const Eigen::VectorXd& rate, MovingZones& out) const;
+  void freeze_layers(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const;
+  void unmark_pressed_layers(const Eigen::VectorXd& y, const TouchingDistance& near,
+                             TouchingMarks& out) const;
+  void set_touching_layers(const TouchingMarks& marks, const Eigen::VectorXd& mode, FrozenContact& out) const;
 
   ElementData<P> data_;
 };
@@ -298,6 +328,7 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
   auto& shape = data_.shapes[element];
   ++shape.contact_count;
   shape.curved = shape.curved || contact.law().curve != nullptr || contact.follows_surface();
+  data_.add_to_layer(contact, element);
   data_.contacts.push_back(std::move(contact));
 }
 
@@ -327,6 +358,7 @@ void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance,
       out.element_springs[i] =
           data_.value(data_.springs[i], dofs, y.data()) > data_.springs[i].law.gap - tolerance;
   }
+  freeze_layers(y, tolerance, out);
 }
 
 template <int P>
@@ -347,6 +379,7 @@ void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, const TouchingDist
       out.element_springs[i] = support.law.one_sided && std::abs(w) <= near.of(support.law.stiffness);
     }
   }
+  unmark_pressed_layers(y, near, out);
 }
 
 template <int P>
@@ -387,6 +420,7 @@ void ElementSetOf<P>::set_touching(const TouchingMarks& marks, const Eigen::Vect
       contact.intervals_into(u.start, u.dx, u.dy, out.contacts[i]);
     }
   }
+  if (mode.size() > 0) set_touching_layers(marks, mode, out);
 }
 
 template <int P>
@@ -415,4 +449,5 @@ double ElementSetOf<P>::frozen_share(const FrozenContact& frozen, int element, i
 
 }  // namespace snapthrough
 
+#include "solver/element/element_layers.h"
 #include "solver/element/element_zones.h"

@@ -102,6 +102,22 @@ struct CondensedElement {
   double log_det = 0.0;  ///< log |det| of the interior
 };
 
+/// Resistance to a linear functional of the unknowns of several elements.
+struct Coupling {
+  std::vector<std::pair<int, double>> row;  ///< unknowns with their weights
+  double compliance = 0.0;                  ///< inverse of the stiffness
+
+  [[nodiscard]] double value(const double* y) const {
+    double sum = 0.0;
+    for (const auto& [unknown, weight] : row) sum += weight * y[unknown];
+    return sum;
+  }
+  /// Adds a force along the functional.
+  void push(double force, double* out) const {
+    for (const auto& [unknown, weight] : row) out[unknown] += force * weight;
+  }
+};
+
 /// Right-hand sides of CondensedElement, for four vectors at a time.
 struct CondensedForces {
   Lanes3 ra, rm;
@@ -133,6 +149,9 @@ class ElementWork {
   /// @brief Replaces the interior rows of `x` (right-hand sides on entry) by the solution, from the end
   /// displacements and multipliers already in `x`.
   virtual void recover(const ColumnLanes& x) = 0;
+  /// @brief Couplings of elements at the last evaluation: parts of the tangent that linearise() does not
+  /// condense.
+  [[nodiscard]] virtual std::span<const Coupling> couplings() const = 0;
   /// @brief Adds the forces on the elements' unknowns that a motion of the ground causes by the tangent of
   /// the last linearise(). @param motion unknowns, of which those of the ground are used
   virtual void add_ground_forces(const double* motion, double* out) const = 0;

@@ -41,6 +41,7 @@ class ElementWorkOf final : public ElementWork {
  public:
   explicit ElementWorkOf(const ElementData<P>& data);
   [[nodiscard]] double support_rounding() const override { return support_rounding_; }
+  [[nodiscard]] std::span<const Coupling> couplings() const override { return couplings_; }
   void add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors, bool small_displacements,
                          Eigen::VectorXd& out) override;
   void add_residual(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
@@ -114,6 +115,16 @@ class ElementWorkOf final : public ElementWork {
   void collect_support_rates(int element, const double* y, const double* along);
   void add_surface_rates(const Functional& n, const Law::Response& response, double into,
                          const ElementDofs& dofs, const double* along);
+  void find_layers(const double* y);
+  [[nodiscard]] LayerParts parts_of_layer(const typename Data::Layer& layer,
+                                          const std::vector<LayerCell>& cells);
+  void add_row(const Functional& f, int element, double factor, Coupling& out) const;
+  [[nodiscard]] Coupling coupling_of(std::size_t layer, const LayerEdge& edge) const;
+  [[nodiscard]] Functional edge_functional(std::size_t layer, const LayerEdge& edge) const;
+  void add_layer(std::size_t index, const Shape& shape, double share);
+  void add_coupling_forces(const double* y, double* residual);
+  void add_layer_changes(const double* along, const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                         Eigen::MatrixXd& out) const;
   void add_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y, const double* along);
   void collect_supports(int element, const double* y);
   [[nodiscard]] double penetration(const Functional& f, const ElementDofs& dofs, const double* y) const;
@@ -191,6 +202,14 @@ class ElementWorkOf final : public ElementWork {
   std::vector<std::pair<int, Functional>> on_ground_;
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
   std::vector<Interior<3 * P>> shearable_;
+  /// Contact of one layer at the last evaluation.
+  struct LayerContact {
+    std::vector<LayerCell> cells;
+    LayerParts parts;
+    std::vector<LayerEdge> edges;
+  };
+  std::vector<LayerContact> layers_;
+  std::vector<Coupling> couplings_;  ///< resistances of the ground between two zones of contact
   // scratch
   std::vector<FoundationContact::KnotPlace> knots_;  ///< knots of the current contact's law
   std::vector<Functional> acting_;  ///< functionals of the acting supports of the current element
@@ -507,6 +526,8 @@ void ElementWorkOf<P>::add_residual(const Eigen::VectorXd& y, const LoadFactors&
   begin(factors, regime);
   support_rounding_ = 0.0;
   find_kinematics(y);
+  find_layers(y.data());
+  add_coupling_forces(y.data(), residual.data());
   for (int e = 0; e < size(); ++e) {
     const Kinematics& kin = kinematics_[e];
     add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
@@ -523,6 +544,8 @@ void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& fa
   begin(factors, regime);
   support_rounding_ = 0.0;
   find_kinematics(y);
+  find_layers(y.data());
+  add_coupling_forces(y.data(), residual.data());
   tangents_.resize(shapes_.size());
   stiff_.resize(static_cast<std::size_t>(data_.stiff));
   shearable_.resize(static_cast<std::size_t>(data_.shearable));
@@ -591,6 +614,10 @@ void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const Load
   Eigen::VectorXd unused;  // support forces, not needed here
   if (!springs_.empty() || !contacts_.empty()) unused.setZero(y.size());
   find_kinematics(y);
+  find_layers(y.data());
+  for (const Coupling& coupling : couplings_)
+    for (Eigen::Index i = 0; i < directions.cols(); ++i)
+      coupling.push(coupling.value(directions.col(i).data()) / coupling.compliance, out.col(i).data());
   for (int e = 0; e < size(); ++e) {
     const ElementDofs& dofs = dofs_[e];
     const Kinematics& kin = kinematics_[e];
@@ -628,6 +655,7 @@ std::unique_ptr<ElementWork> ElementSetOf<P>::make_work() const {
 
 }  // namespace snapthrough
 
+#include "solver/element/element_work_layers.h"
 #include "solver/element/element_work_rates.h"
 #include "solver/element/element_work_solve.h"
 #include "solver/element/element_work_supports.h"

@@ -124,6 +124,7 @@ void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& do
   const auto last = static_cast<std::size_t>(shape.first_contact + shape.contact_count);
   for (auto i = static_cast<std::size_t>(shape.first_contact); i < last; ++i) {
     const FoundationContact& contact = contacts_[i];
+    if (contact.has_layer()) continue;  // add_layer_changes()
     const ContactDisplacement u = data_.displacement_of(contact, shape, dofs, y);
     const double share = contact.law().one_sided ? regime_.softness : 1.0;
     const auto add = [&](Functional f, double stiffness, double slope) {
@@ -160,6 +161,8 @@ void ElementWorkOf<P>::add_tangent_changes(const Eigen::VectorXd& y, const LoadF
   begin(rates, regime);
   if (linear_ && contacts_.empty() && springs_.empty()) return;
   find_kinematics(y);
+  find_layers(y.data());
+  if (!regime_.is_frozen() && !regime_.bilateral()) add_layer_changes(along.data(), directions, out);
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     const ElementDofs& dofs = dofs_[e];

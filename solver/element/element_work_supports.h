@@ -38,6 +38,7 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
         regime_.is_frozen() ? regime_.frozen->contacts[index] : parts_in_contact(index, shape, dofs, y);
     for (const ElementPart& part : parts) add_pieces(index, shape, part, share, &u);
   }
+  if (contact.has_layer()) add_layer(index, shape, share);
   if (regime_.grip > 0.0 && one_sided) add_interval(index, shape, whole, regime_.grip, nullptr);
 }
 

@@ -57,6 +57,7 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
   };
   std::vector<Missed> missed;
   std::vector<ElementPart> parts;
+  LayerParts on_layers = data_.parts_on_layers(y.data());
   double largest = 0.0;
   for (int e = 0; e < size(); ++e) {
     const auto& shape = data_.shapes[e];
@@ -67,7 +68,10 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
         return contact.law().stiffness / shape.h *
                std::abs(contact.penetration(0.5 * (part.from + part.to), u.start, u.dx, u.dy));
       };
-      data_.acting_parts(i, u, parts);
+      if (contact.has_layer())
+        parts = std::move(on_layers[i]);
+      else
+        data_.acting_parts(i, u, parts);
       for (const ElementPart& part : parts) largest = std::max(largest, pressure(part));
       zones::for_each_difference(parts, frozen.contacts[i], [&](const ElementPart& part) {
         missed.push_back({part.to - part.from, pressure(part)});
@@ -89,6 +93,7 @@ MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen:
     const auto& shape = data_.shapes[e];
     for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
       const FoundationContact& contact = data_.contacts[i];
+      if (contact.has_layer()) continue;
       const auto u = data_.displacement_of(contact, shape, data_.dofs[e], y.data());
       const auto v = data_.displacement_of(contact, shape, data_.dofs[e], rate.data());
       const auto moves = [&](double xi, double end) {
@@ -109,6 +114,7 @@ MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen:
     }
     start += shape.h;
   }
+  add_moving_layers(y, rate, out);
   return out;
 }
 
@@ -125,7 +131,11 @@ void ElementSetOf<P>::freeze_zones(const MovingZones& zones, const Eigen::Vector
       for (const MovingZone& zone : zones[data_.contacts[i].foundation()]) {
         const double from = std::max(first, (zone.from - start) / shape.h);
         const double to = std::min(last, (zone.to - start) / shape.h);
-        if (to > from) out.contacts[i].push_back({from, to});
+        const double point = std::min(from, last);
+        if (to > from)
+          out.contacts[i].push_back({from, to});
+        else if (zone.from == zone.to && from - to <= ZoneTolerances::joined)  // a layer touches at one point
+          out.contacts[i].push_back({point, point});
       }
     }
     for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)

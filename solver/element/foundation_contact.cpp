@@ -439,6 +439,40 @@ void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const d
     g[i] -= law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0])).gap;
 }
 
+void FoundationContact::append_samples(std::array<double, 2> ua, std::span<const double> dx,
+                                       std::span<const double> dy, std::vector<DepthAt>& out) const {
+  Values g;
+  penetrations(ua, dx, dy, 0.0, g);
+  for (int i = 0; i < samples_->count; ++i) {
+    const bool last = i + 1 == samples_->count;
+    out.push_back({last ? range_[1] : range_[0] + samples_->z[i] * (range_[1] - range_[0]), g[i]});
+  }
+}
+
+void FoundationContact::pressed_intervals(std::array<double, 2> ua, std::span<const double> dx,
+                                          std::span<const double> dy, double above,
+                                          std::vector<Interval>& out) const {
+  const auto count = static_cast<std::size_t>(samples_->count);
+  const double length = (range_[1] - range_[0]) * place_.length;
+  Values w;
+  Values slope;
+  penetrations(ua, dx, dy, -above, w);
+  const ChebyshevSeries depth(std::span<const double>(w).first(count));
+  for (std::size_t i = 0; i < count; ++i) slope[i] = depth.slope(samples_->z[i]) / length;
+  const ChebyshevSeries slopes(std::span<const double>(slope).first(count));
+  Values pressure;
+  for (std::size_t i = 0; i < count; ++i)
+    pressure[i] = modulus() * w[i] - shear() * slopes.slope(samples_->z[i]) / length;
+  out.clear();
+  search(SampledGap(std::span<const double>(pressure).first(count)), pressure, out);
+}
+
+std::array<double, 2> FoundationContact::direction_rate(double xi) const {
+  if (!direction().turns) return {0.0, 0.0};
+  const AxisPoint axis = place_.axis->at(place_.s0 + xi * place_.ds);
+  return direction().rate(axis.angle, place_.ds * axis.curvature);
+}
+
 bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
                                 std::span<const double> dy, double distance) const {
   if (!law_.one_sided) return false;

@@ -59,6 +59,16 @@ class FoundationContact {
   /// Whether the direction of the reaction turns as the axis moves.
   [[nodiscard]] bool follows_surface() const { return foundation_law_.follows_surface(); }
   [[nodiscard]] int foundation() const { return foundation_; }
+  /// Stiffness G of the shear layer, and modulus K.
+  [[nodiscard]] double shear() const { return foundation_law_.shear; }
+  /// Whether the ground with the shear layer continues beyond the foundation's range.
+  [[nodiscard]] bool endless() const { return foundation_law_.endless; }
+  [[nodiscard]] double modulus() const { return foundation_law_.law.stiffness; }
+  /// Whether the contact is that of a one-sided foundation with a shear layer (shear_layer.h).
+  [[nodiscard]] bool has_layer() const { return law_.one_sided && shear() > 0.0; }
+  /// Scaled length of the element, and arc length from the member's start to the element's.
+  [[nodiscard]] double length() const { return place_.length; }
+  [[nodiscard]] double start() const { return place_.length * place_.from / (place_.to - place_.from); }
   /// Displacement of the ground under the element.
   [[nodiscard]] const GroundMotion& ground() const { return ground_; }
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
@@ -87,6 +97,20 @@ class FoundationContact {
   /// @brief Slope d penetration / d xi.
   [[nodiscard]] double penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                          std::span<const double> dy) const;
+  /// Position in the element, with the penetration there.
+  struct DepthAt {
+    double xi = 0.0;
+    double depth = 0.0;
+  };
+  /// Appends the penetrations at the samples of the range, both ends included.
+  void append_samples(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                      std::vector<DepthAt>& out) const;
+  /// @brief Intervals of the range in which K w - G w'' is above zero, with the penetration w + `above`;
+  /// ascending, `out` is overwritten. @pre no surface, constant gap
+  void pressed_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                         double above, std::vector<Interval>& out) const;
+  /// Derivative of direction_at() by xi. @pre no surface
+  [[nodiscard]] std::array<double, 2> direction_rate(double xi) const;
   /// @brief Whether the distance from touching is at most `distance` on the whole range.
   [[nodiscard]] bool is_near(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                              double distance) const;

@@ -213,6 +213,9 @@ struct GroundDisplacement {
   bool operator==(const GroundDisplacement&) const = default;
 };
 
+/// End of the ground beside a foundation: it ends free, or it goes on without end.
+enum class GroundEnd { free, endless };
+
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
 /// (towards `side`) or along the fixed `direction` (pointing into the medium).
 struct Foundation {
@@ -234,6 +237,8 @@ struct Foundation {
   bool tangential = false;  ///< w is the displacement along the initial tangent; bilateral, without G
   /// w is the displacement relative to this one, and an outline moves with it.
   std::optional<GroundDisplacement> displacement = std::nullopt;
+  /// What the ground with the shear layer of a one-sided foundation does at the ends of the range.
+  GroundEnd ground_end = GroundEnd::free;
   bool operator==(const Foundation&) const = default;
 };
 

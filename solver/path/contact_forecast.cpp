@@ -59,7 +59,7 @@ MovingZones ContactForecast::extrapolated(double step) const {
       zone.from += known ? extrapolated_move(from_way, chord_, zone.from_rate, step) : step * zone.from_rate;
       zone.to += known ? extrapolated_move(to_way, chord_, zone.to_rate, step) : step * zone.to_rate;
     }
-    std::erase_if(out[f], [](const MovingZone& zone) { return !(zone.to > zone.from); });
+    std::erase_if(out[f], [](const MovingZone& zone) { return zone.to < zone.from; });
   }
   return out;
 }

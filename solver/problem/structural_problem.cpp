@@ -341,9 +341,20 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
   report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_) - holds;
   report.log_abs_det += factor_.log_abs_det();
+  add_couplings(report);
   if (corrected_) add_follower_loads(y, lambda, report);
   constrain_residual(y, lambda, f);
   return report;
+}
+
+/// Corrects determinant and count of the tangent without couplings between elements.
+void StructuralProblem::add_couplings(TangentReport& report) {
+  couplings_.prepare(elements_->couplings(), size(), [this](Eigen::Ref<MatrixXd> x) {
+    for (Index i = 0; i < x.cols(); ++i) release_rows(x.col(i));
+    solve_uncoupled(x);
+  });
+  report.negative -= couplings_.negative();
+  report.log_abs_det += couplings_.log_abs_det();
 }
 
 /// Corrects determinant and count of the symmetric part for the follower loads. A nonsymmetric tangent
@@ -397,6 +408,11 @@ void StructuralProblem::subtract_ground(Eigen::Ref<MatrixXd> x) const {
 }
 
 void StructuralProblem::solve_symmetric(Eigen::Ref<MatrixXd> x) {
+  solve_uncoupled(x);
+  for (Index i = 0; i < x.cols() && !couplings_.empty(); ++i) couplings_.correct(x.col(i));
+}
+
+void StructuralProblem::solve_uncoupled(Eigen::Ref<MatrixXd> x) {
   subtract_ground(x);
   const Index displacements = 3 * structure_.nodes + structure_.releases;
   node_rhs_.resize(multiplier(members_), kLanes);

@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "solver/discrete/coupled_solution.h"
 #include "solver/discrete/structure.h"
 #include "solver/member/chain.h"
 #include "solver/numeric/symmetric_indefinite.h"
@@ -27,7 +28,8 @@ namespace snapthrough {
 ///   [ K_s + springs   X^T   .  ] [u_nodes]
 ///   [ X               -F    I  ] [m_member]     (I acts on its end node)
 ///
-/// Holds k H H^T add a block with one unknown force per motion: [ . sqrt(k) H ; . -1 ].
+/// Couplings between elements are added to its solutions (CoupledSolution). Holds k H H^T add a block with
+/// one unknown force per motion: [ . sqrt(k) H ; . -1 ].
 ///
 /// Rows of a node with an inclined support are in the support's axes. The row of a constrained component is u
 /// - lambda d - d_0. The negative eigenvalues of the constrained displacement stiffness number the negative
@@ -116,6 +118,9 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] double largest_axial_force(std::size_t member, const Eigen::VectorXd& response) const;
   /// x := S^-1 x with the symmetric part S of the tangent.
   void solve_symmetric(Eigen::Ref<Eigen::MatrixXd> x);
+  /// Likewise, without the couplings between elements.
+  void solve_uncoupled(Eigen::Ref<Eigen::MatrixXd> x);
+  void add_couplings(TangentReport& report);
   void reduce_member(std::size_t member, const ColumnLanes& lanes, Eigen::Index count);
   void solve_nodes(Eigen::Ref<Eigen::VectorXd> rhs, Eigen::Ref<Eigen::VectorXd> reduced);
   void recover_member(std::size_t member, const ColumnLanes& lanes, Eigen::Ref<Eigen::MatrixXd> x) const;
@@ -183,6 +188,7 @@ class StructuralProblem final : public EquilibriumProblem {
   bool planned_ = false;             ///< node_rows_ and factor_ include the holds
   SymmetricIndefinite factor_;
   Eigen::MatrixXd node_rhs_, free_rhs_;  ///< scratch of solve()
+  CoupledSolution couplings_;
   FollowerLoads follower_loads_;
   std::unique_ptr<ElementWork> elements_;
   NodeSpringWork springs_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "solver/discrete/element_reader.h"
+#include "solver/discrete/layer_state.h"
 #include "solver/model/id_index.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/support_state.h"
@@ -21,11 +22,26 @@ void local_intervals(const Structure& structure, const FoundationPart& part, con
                                   reader.gradient(1), out, depth);
 }
 
+/// Contact zones of a foundation with a shear layer. A member may touch at one point: a zone without length.
+std::vector<std::array<double, 2>> layer_intervals(const Structure& structure, const Eigen::VectorXd& y,
+                                                   int foundation, double depth) {
+  const LayerState layer = layer_state(structure, y, foundation, depth);
+  const auto arc = [&](const LayerEdge& edge) {
+    return structure.scales.length * layer.cells[edge.cell].arc(edge.xi);
+  };
+  std::vector<std::array<double, 2>> out;
+  for (std::size_t i = 0; i < layer.edges.size(); i += 2)
+    out.push_back({arc(layer.edges[i]), arc(layer.edges[i + 1])});
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const Model& model,
                                                      const Eigen::VectorXd& y, int foundation, double depth) {
   if (initial_stiffness(model.foundations[foundation]) == 0.0) return {};
+  if (has_layer(structure.foundation_laws[static_cast<std::size_t>(foundation)]))
+    return layer_intervals(structure, y, foundation, depth);
   const int member = index_of(model.members, model.foundations[foundation].member);
   const double length = structure.axes[member]->length();
   std::vector<std::array<double, 2>> joined;

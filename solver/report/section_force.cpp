@@ -15,7 +15,7 @@ using Vec2 = std::array<double, 2>;
 }  // namespace
 
 SectionForces::SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                             double lambda, int element)
+                             double lambda, const std::vector<LayerState>& layers, int element)
     : structure_(structure),
       model_(model),
       element_(element),
@@ -25,7 +25,7 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
   add_loads(y, lambda / structure.scales.load, 1.0);
   if (pressure_.acts()) release_end_of_pressure(y);
-  add_foundations(y);
+  add_foundations(y, layers);
   add_springs(y);
 }
 
@@ -89,7 +89,7 @@ void SectionForces::add_dead(const LineLoad& load, double factor) {
   }
 }
 
-void SectionForces::add_foundations(const Eigen::VectorXd& y) {
+void SectionForces::add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers) {
   const auto before = [](const FoundationPart& part, int element) { return part.element < element; };
   const auto& parts = structure_.foundation_parts;
   for (auto at = std::lower_bound(parts.begin(), parts.end(), element_, before);
@@ -100,10 +100,25 @@ void SectionForces::add_foundations(const Eigen::VectorXd& y) {
     const ElementReader reader(structure_, y, element_, law);
     FoundationHere out{law, reader, lumped, part.range, {{part.range[0], part.range[1]}}};
     if (lumped) add_lumped(out);
-    if (part.contact)
+    if (const LayerState& layer = layers[static_cast<std::size_t>(part.foundation)]; !layer.cells.empty()) {
+      out.contact = layer.on_element(element_);
+      add_layer_forces(layer);
+    } else if (part.contact) {
       out.contact = part.contact->smooth_pieces({reader.start()[0], reader.start()[1]}, reader.gradient(0),
                                                 reader.gradient(1));
+    }
     foundations_.push_back(out);
+  }
+}
+
+/// Adds the forces at ends of contact with a shear layer.
+void SectionForces::add_layer_forces(const LayerState& layer) {
+  for (std::size_t i = 0; i < layer.edges.size(); ++i) {
+    const LayerEdge& edge = layer.edges[i];
+    if (layer.elements[edge.cell] != element_) continue;
+    const Vec2 d = layer.cells[edge.cell].contact->direction_at(edge.xi);
+    const double force = -edge_force(layer.cells, layer.edges, i);
+    points_.push_back({edge.xi, {force * d[0], force * d[1], 0.0}});
   }
 }
 
@@ -190,7 +205,7 @@ Vec2 SectionForces::density(double xi) const {
     f[1] -= difference * tangent[0];
   }
   for (const FoundationHere& foundation : foundations_) {
-    if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    if (foundation.lumped || !foundation.touches(xi)) continue;
     const Vec2 r = reaction(foundation, xi);
     for (int c = 0; c < 2; ++c) f[c] += r[c];
   }
@@ -212,6 +227,7 @@ void SectionForces::add_shear_layers(double xi, double from, double to, std::arr
   const Vec2 x0 = position(xi);
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.law.shear == 0.0) continue;
+    if (!foundation.touches(0.5 * (from + to))) continue;
     const double lo = std::max(from, foundation.range[0]);
     const double hi = std::min(to, foundation.range[1]);
     for (std::size_t i = 0; lo < hi && i < gauss_.points.size(); ++i) {
@@ -285,7 +301,7 @@ std::array<double, 3> SectionForces::at(double xi) const {
     add_shear_layers(xi, breaks[b], breaks[b + 1], sum);
   }
   for (const FoundationHere& foundation : foundations_) {
-    if (foundation.law.shear == 0.0 || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    if (foundation.law.shear == 0.0 || !foundation.is_cut(xi)) continue;
     const Vec2 n = normal_into(foundation.law, xi);
     const double cut = shear_layer(foundation.law, xi);
     sum[0] -= cut * n[0];

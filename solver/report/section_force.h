@@ -3,10 +3,12 @@
 /// Section forces of one element from equilibrium.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "solver/discrete/element_reader.h"
+#include "solver/discrete/layer_state.h"
 #include "solver/discrete/structure.h"
 #include "solver/model/member_loads.h"
 #include "solver/model/model.h"
@@ -24,8 +26,9 @@ namespace snapthrough {
 class SectionForces {
  public:
   /// @param lambda scaled load factor of the state y
+  /// @param layers see layer_states(); not used after construction
   SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
-                int element);
+                const std::vector<LayerState>& layers, int element);
 
   /// (force x, force y, moment) at xi in [0, 1] of the part beyond xi on the part before it, scaled.
   [[nodiscard]] std::array<double, 3> at(double xi) const;
@@ -45,6 +48,18 @@ class SectionForces {
     bool lumped;           ///< true: its reaction consists of point forces
     Vec2 range;
     std::vector<FoundationContact::Interval> contact;
+
+    /// Whether a place is inside the contact.
+    [[nodiscard]] bool touches(double xi) const {
+      return std::any_of(contact.begin(), contact.end(),
+                         [xi](const auto& part) { return part.from <= xi && xi <= part.to; });
+    }
+    /// Whether the part beyond a section begins in contact; the section at an end of contact is beyond it.
+    [[nodiscard]] bool is_cut(double xi) const {
+      return std::any_of(contact.begin(), contact.end(), [xi](const auto& part) {
+        return part.from <= xi && (xi < part.to || (xi == 1.0 && part.to == 1.0));
+      });
+    }
   };
   struct PointAction {
     double xi;
@@ -55,8 +70,9 @@ class SectionForces {
   void add_load(const Load& load, const Eigen::VectorXd& y, double factor);
   void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
-  void add_foundations(const Eigen::VectorXd& y);
+  void add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers);
   void add_springs(const Eigen::VectorXd& y);
+  void add_layer_forces(const LayerState& layer);
   void add_lumped(const FoundationHere& foundation);
   /// Perfect axis at xi; the last value is cached.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;

@@ -9,6 +9,7 @@
 
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
+#include "solver/discrete/layer_state.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
 #include "solver/report/contact.h"
@@ -21,7 +22,7 @@ namespace snapthrough {
 namespace {
 
 MemberState member_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                         double lambda, int member, int points) {
+                         double lambda, const std::vector<LayerState>& layers, int member, int points) {
   const double L = structure.scales.length;
   const double F = structure.scales.force;
   const StressFreeAxis& axis = *structure.stress_free[member];
@@ -37,7 +38,7 @@ MemberState member_state(const Structure& structure, const Model& model, const E
     if (place.element != current) {
       current = place.element;
       reader = std::make_unique<ElementReader>(structure, y, current);
-      forces = std::make_unique<SectionForces>(structure, model, y, lambda, current);
+      forces = std::make_unique<SectionForces>(structure, model, y, lambda, layers, current);
     }
     const auto u = reader->displacement(place.xi);
     const auto n = forces->at(place.xi);
@@ -75,6 +76,11 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
   const FoundationLaw& law = structure.foundation_laws[index];
   FoundationState out;
   out.id = foundation.id;
+  out.contact = contact_intervals(structure, model, y, index);
+  const auto touches = [&out](double s) {
+    return std::any_of(out.contact.begin(), out.contact.end(),
+                       [s](const auto& zone) { return zone[0] <= s && s <= zone[1]; });
+  };
   for (int i = 0; i < points; ++i) {
     const double fraction =
         foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
@@ -83,7 +89,9 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     // results use the user's sign: a pushing medium has a positive reaction, a pulling one a negative
     const Law acting = law_on(structure, law, place.element).at(fraction);
     double beyond = law.penetration(place_on_axis(structure, place.element, place.xi), {u[0], u[1]}).depth;
-    const double reaction = acting.reaction_beyond(beyond);
+    // beside contact the surface of a shear layer lies deeper than the member
+    const bool is_apart = has_layer(law) && !touches(fraction * axis.length());
+    const double reaction = is_apart ? 0.0 : acting.reaction_beyond(beyond);
     // displacement of the base's surface by its given stiffness, where the element has a bounded one
     if (law.law.one_sided && beyond > 0.0 && acting.stiffness > 0.0)
       beyond *= acting.stiffness / law.at(fraction).stiffness;
@@ -92,7 +100,6 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));
     out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));
   }
-  out.contact = contact_intervals(structure, model, y, index);
   return out;
 }
 
@@ -101,8 +108,9 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
 std::vector<MemberState> member_states(const Structure& structure, const Model& model,
                                        const Eigen::VectorXd& y, double lambda, int points) {
   std::vector<MemberState> out;
+  const std::vector<LayerState> layers = layer_states(structure, y);
   for (std::size_t m = 0; m < model.members.size(); ++m)
-    out.push_back(member_state(structure, model, y, lambda, static_cast<int>(m), points));
+    out.push_back(member_state(structure, model, y, lambda, layers, static_cast<int>(m), points));
   const auto state_of = [&](std::size_t spring) { return rod_state(structure, model, spring, y, points); };
   insert_rods(model.springs, state_of, out);
   return out;

@@ -10,6 +10,7 @@
 
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
+#include "solver/discrete/layer_state.h"
 #include "solver/model/id_index.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/rounding.h"
@@ -139,13 +140,44 @@ void add_springs_of(const std::vector<SupportSpring>& springs, const VectorXd& y
   }
 }
 
+/// Adds a one-sided foundation with a shear layer: base and layer where the member touches, and the ground
+/// beyond each end of contact.
+void add_layer(const Structure& structure, const FoundationLaw& foundation, const LayerState& layer,
+               const VectorXd& y, const RigidMotions& rigid, Bearing& sum) {
+  for (std::size_t i = 0; i < layer.cells.size(); ++i) {
+    const int element = layer.elements[i];
+    const ElementReader reader(structure, y, element);
+    for (const ElementPart& part : layer.parts[i]) {
+      if (!(part.to > part.from)) continue;
+      add_springs_of(contact_springs(structure, foundation, reader, element, part), y, rigid, sum);
+      add_springs_of(shear_layer_springs(structure, foundation, element, {part.from, part.to}), y, rigid,
+                     sum);
+    }
+  }
+  for (std::size_t i = 0; i < layer.edges.size(); ++i) {
+    const LayerEdge& edge = layer.edges[i];
+    const auto d = layer.cells[edge.cell].contact->direction_at(edge.xi);
+    const SupportSpring place = support_at(structure, layer.elements[edge.cell], edge.xi, {d[0], d[1], 0.0});
+    const Wrench unit = rigid.work(place);
+    const double force = edge_force(layer.cells, layer.edges, i);
+    for (int c = 0; c < 3; ++c) sum.wrench[c] -= force * unit[c];
+    const double stiffness = edge.stiffness + (edge.other >= 0 ? 1.0 / edge.compliance : 0.0);
+    sum.rounding += stiffness * rigid.value(place, y).size * std::numeric_limits<double>::epsilon();
+  }
+}
+
 void add_foundations(const Structure& structure, const Model& model, const VectorXd& y,
                      const RigidMotions& rigid, std::vector<Bearing>& bearings) {
   const std::size_t first = bearings.size();
   bearings.resize(first + model.foundations.size());
+  for (std::size_t i = 0; i < model.foundations.size(); ++i)
+    if (const FoundationLaw& law = structure.foundation_laws[i]; has_layer(law))
+      add_layer(structure, law, layer_state(structure, y, static_cast<int>(i)), y, rigid,
+                bearings[first + i]);
   for (const FoundationPart& part : structure.foundation_parts) {
     const FoundationLaw foundation =
         law_on(structure, structure.foundation_laws[part.foundation], part.element);
+    if (has_layer(foundation)) continue;
     Bearing& sum = bearings[first + static_cast<std::size_t>(part.foundation)];
     if (foundation.shear > 0.0)
       add_springs_of(shear_layer_springs(structure, foundation, part.element, part.range), y, rigid, sum);

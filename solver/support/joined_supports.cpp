@@ -128,7 +128,7 @@ class Joiner {
   template <class Support>
   [[nodiscard]] bool touches(const Support& support, double unit) const {
     if constexpr (requires { support.outline; })
-      if (support.outline || !support.gap_along.empty()) return false;
+      if (support.outline || !support.gap_along.empty() || support.shear_stiffness > 0.0) return false;
     return is_one_sided(support) && !support.law && !support.displacement &&
            std::isfinite(support.stiffness) && support.gap <= Rounding::coordinate * unit;
   }

@@ -14,7 +14,8 @@ namespace snapthrough {
 ///
 /// that is, a bilateral support of the smaller stiffness plus a one-sided support of the difference. Springs
 /// to ground are combined by place and line of action; foundations of a member by line of action on each part
-/// of their ranges, which may overlap arbitrarily.
+/// of their ranges, which may overlap arbitrarily. Foundations with a shear layer are not combined: each side
+/// has its own surface.
 /// @return model with combined supports, for the equations only (ids and indices of supports differ); empty:
 /// no supports are opposite
 /// @pre the model passed check()

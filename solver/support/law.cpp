@@ -111,6 +111,7 @@ FoundationLaw law_of(const Foundation& foundation, const Scales& scales, std::ar
   out.law = {scales.scaled_modulus(initial_stiffness(foundation)),
              one_sided ? scales.scaled_length(foundation.gap) : 0.0, one_sided};
   out.shear = scales.scaled_force(foundation.shear_stiffness);
+  out.endless = foundation.ground_end == GroundEnd::endless;
   out.sense = sense_of(foundation.reaction);
   for (const auto& [fraction, gap] : foundation.gap_along)
     out.gap_along.emplace_back(fraction, scales.scaled_length(gap));

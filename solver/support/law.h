@@ -138,10 +138,11 @@ struct PlaceOnAxis {
 
 /// Reaction law of a foundation, scaled.
 struct FoundationLaw {
-  Direction direction;  ///< not used with a surface
-  Law law;              ///< reaction per length, with the largest stiffness and capacity along the member
-  double shear = 0.0;   ///< stiffness G of the shear layer
-  double sense = 1.0;   ///< factor on results, see sense_of()
+  Direction direction;   ///< not used with a surface
+  Law law;               ///< reaction per length, with the largest stiffness and capacity along the member
+  double shear = 0.0;    ///< stiffness G of the shear layer
+  bool endless = false;  ///< whether the ground with a one-sided shear layer continues beyond the range
+  double sense = 1.0;    ///< factor on results, see sense_of()
   std::shared_ptr<const ReactionCurve> curve;                 ///< curve of `law`; null: linear
   std::shared_ptr<const LawVariation> variation{};            ///< null: constant along the member
   double stiffest = std::numeric_limits<double>::infinity();  ///< bound of the stiffness

@@ -139,6 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"/model/foundations/0/member", R"("m")"}, Field{"/model/foundations/0/stiffness", "0.5"},
         Field{"/model/foundations/0/shear_stiffness", "0.2"},
         Field{"/model/foundations/0/range", "[0.2, 0.9]"}, Field{"/model/foundations/0/direction", "[0, 1]"},
+        Field{"/model/foundations/1/shear_stiffness", "0.2"},
         Field{"/model/foundations/1/reaction", R"("tension_only")"},
         Field{"/model/foundations/1/side", R"("left")"}, Field{"/model/foundations/1/gap", "0.002"},
         Field{"/model/loads/0/at/fraction", "0.61"}, Field{"/model/loads/0/force", "[0.02, -0.11]"},

@@ -25,7 +25,7 @@ const kBetweenFields = {
   no_load: 'loads, displacements of supports and type of analysis',
   no_mass: 'masses of sections and points, and what the analysis gives',
   mechanism: 'the whole model',
-  unsupported: 'geometry and type of analysis; reaction and shear_stiffness',
+  unsupported: 'geometry and type of analysis',
   not_increasing: 'a fraction or a point and the one before it',
   invalid_pointer: 'a pointer, which is to something in /model',
   no_such_place: 'a pointer and the model',

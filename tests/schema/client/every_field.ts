@@ -60,7 +60,7 @@ const foundationLaws: Schemas['FoundationLaw'][] = [
 ];
 
 const foundations: Schemas['Foundation'][] = [
-  {id: 'soil', member: 'beam', stiffness: 1e4, shear_stiffness: 0, reaction: 'tension_only', range: [0, 0.5], gap: 0,
+  {id: 'soil', member: 'beam', stiffness: 1e4, shear_stiffness: 1, ground_end: 'endless', reaction: 'tension_only', range: [0, 0.5], gap: 0,
    direction: 'normal', side: 'right'},
   {id: 'below', member: 'beam', stiffness: 1e4, direction: [0, -1]},
   {id: 'deeper', member: 'beam', stiffness: varying, component: 'tangent'},

@@ -168,12 +168,12 @@ export class Drawer {
       if (value?.along) value.along[0][1] ||= 1;
     };
     for (const one of [...(model.springs ?? []), ...(model.foundations ?? [])]) {
-      if (one.component === 'tangent') for (const field of ['side', 'direction', 'shear_stiffness', 'reaction', 'gap']) delete one[field];
+      if (one.component === 'tangent') for (const field of ['side', 'direction', 'shear_stiffness', 'ground_end', 'reaction', 'gap']) delete one[field];
       if (Array.isArray(one.direction)) delete one.side;
       positiveFirst(one.stiffness);
       ascend(one.gap);
       if (one.outline) {
-        for (const field of ['side', 'direction', 'gap', 'component', 'shear_stiffness']) delete one[field];
+        for (const field of ['side', 'direction', 'gap', 'component', 'shear_stiffness', 'ground_end']) delete one[field];
         one.reaction = 'compression_only';
       }
       if (one.outline?.points) one.outline.points = one.outline.points.map(([, y], i) => [100 * i, y]);
@@ -193,7 +193,9 @@ export class Drawer {
     for (const one of [...(model.springs ?? []), ...(model.foundations ?? [])]) {
       if (one.stiffness === 'rigid') one.reaction = 'compression_only';
       if (one.reaction !== 'compression_only' && one.reaction !== 'tension_only') delete one.gap;
-      else delete one.shear_stiffness;
+      else if (one.law || one.outline || !(one.stiffness > 0) || one.gap?.along) delete one.shear_stiffness;
+      if (!(one.shear_stiffness > 0) || !['compression_only', 'tension_only'].includes(one.reaction)) delete one.ground_end;
+      else delete analysis.discretization;
     }
     this.agreeLaws(model);
     const loads = loadsOf(model);

@@ -32,9 +32,6 @@ TEST_P(NotSupportedYet, IsRefusedWhereItIsUsed) {
 #define USE(...) []([[maybe_unused]] Model& m, [[maybe_unused]] Analysis& a) { __VA_ARGS__; }
 
 const Case kCases[] = {
-    {"OneSidedShearLayer",
-     USE(m.foundations[0].shear_stiffness = 1.0; m.foundations[0].reaction = Reaction::compression_only),
-     "/model/foundations/0/shear_stiffness"},
     {"LinearPath", USE(a.geometry = Geometry::linear), "/analysis/geometry"},
 };
 INSTANTIATE_TEST_SUITE_P(Contract, NotSupportedYet, ::testing::ValuesIn(kCases),
