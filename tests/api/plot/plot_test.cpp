@@ -94,6 +94,25 @@ TEST(PathFigure, StabilityChangesAtTheLimitPoint) {
   EXPECT_NEAR(before.front().second, y.pixel(0), kPixel);
 }
 
+// The number of negative eigenvalues is 0 on both sides of flutter.
+TEST(PathFigure, ThePathIsUnstableBeyondFlutter) {
+  const json result = solved_example("beck");
+  const double load = result.at("critical_points").at(0).at("load_factor");
+  const std::string text = svg_of(result, of_kind(PlotKind::path));
+  const SvgReader svg(text);
+  const auto [x, y] = testing::read_axes(svg);
+  for (const char* looks : {"stable", "unstable"}) {
+    const auto found = svg.with(looks);
+    const auto curve =
+        std::find_if(found.begin(), found.end(), [](const SvgElement& one) { return one.name == "path"; });
+    ASSERT_NE(curve, found.end()) << looks;
+    const auto points = testing::read_points(curve->attribute("d"));
+    const auto& end = std::string_view(looks) == "stable" ? points.back() : points.front();
+    EXPECT_NEAR(end.second, y.pixel(load), kPixel) << looks;
+  }
+  EXPECT_THAT(svg.with("flutter"), SizeIs(2)) << "the mark at its load and that of the legend";
+}
+
 TEST(PathFigure, BranchesAreDrawnAndOneCanBeChosen) {
   const json result = solved_example("portal_sway");
   ASSERT_GT(result.at("branches").size(), 1U);
@@ -335,7 +354,7 @@ TEST(Figure, EveryKindIsTheSameTextEachTime) {
 }
 
 TEST(Figure, EveryExampleHasItsDefaultFigure) {
-  for (const char* name : {"arch_no_base", "buried_pipe", "column_between_walls", "column_winkler",
+  for (const char* name : {"arch_no_base", "beck", "buried_pipe", "column_between_walls", "column_winkler",
                            "film_on_substrate", "frame_nearly_unstable", "frame_portal", "pile_in_soil",
                            "pipe_under_pressure", "pipeline_upheaval", "portal_sway", "tunnel_arch"}) {
     const json request = testing::example_request(name);
