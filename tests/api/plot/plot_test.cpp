@@ -223,6 +223,29 @@ TEST(ShapeFigure, TheDefaultStateIsTheFirstCriticalPointOrTheLast) {
   EXPECT_THAT(svg_of(pile, of_kind(PlotKind::shape)), HasSubstr("at load factor 1,"));
 }
 
+// A cantilever along x that a force bends up: the arrow is across the axis at the tip, whose rotation the
+// result has, or keeps its direction.
+TEST(ShapeFigure, AFollowingForceTurnsWithItsPlace) {
+  json request = testing::example_request("beck");
+  request["model"]["nodes"][1] = {{"id", "tip"}, {"x", 1}, {"y", 0}};
+  request["model"]["loads"][0]["force"] = {0, 1};
+  request["analysis"] = {{"type", "static"}, {"load_factors", {2}}};
+  PlotRequest plot = of_kind(PlotKind::shape);
+  plot.solved_request = &request;
+  for (const bool follows : {false, true}) {
+    request["model"]["loads"][0]["follows"] = follows;
+    const json result = solved(request);
+    const double rotation = result["states"][0]["members"]["column"]["rotation"].back();
+    ASSERT_GT(rotation, 0.5);
+    const std::string text = svg_of(result, plot);
+    const SvgReader svg(text);
+    ASSERT_THAT(svg.with("load"), SizeIs(1));
+    const auto arrow = testing::read_points(svg.with("load")[0].attribute("d"));
+    const double angle = std::atan2(arrow[0].second - arrow[1].second, arrow[1].first - arrow[0].first);
+    EXPECT_NEAR(angle, 0.5 * M_PI + (follows ? rotation : 0.0), 2e-3) << follows;
+  }
+}
+
 TEST(ShapeFigure, AnotherRequestIsRefused) {
   const json other = testing::example_request("frame_portal");
   PlotRequest plot = of_kind(PlotKind::shape);
