@@ -273,6 +273,17 @@ TEST(ModeFigure, BucklingModesAreDrawnOnTheStructureOrAlongTheMembers) {
   EXPECT_THAT(svg_of(result, plot), HasSubstr("Buckling mode 2 at load factor"));
 }
 
+TEST(ModeFigure, MotionsOfAllLoadFactorsAreCounted) {
+  json request = testing::example_request("beck");
+  request["analysis"] = {{"type", "vibration"}, {"load_factors", {0, 10}}, {"modes", 2}};
+  const json result = solved(request);
+  PlotRequest plot = of_kind(PlotKind::mode);
+  plot.mode = 3;
+  EXPECT_THAT(svg_of(result, plot), HasSubstr("Natural motion 2 at load factor 10"));
+  plot.mode = 4;
+  EXPECT_THROW((void)svg_of(result, plot), PlotError);
+}
+
 TEST(SweepFigure, DotsStandAtTheirValues) {
   json table = testing::table_of_two();
   PlotRequest plot = of_kind(PlotKind::sweep);
