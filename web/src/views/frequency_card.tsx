@@ -7,7 +7,7 @@ import { useSize } from "../app/size";
 import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
   formatNumber, frequencyChart, frequencyFigure, frequencyTable, motionsOf, nearestMotion, tableCsv, type ChosenMotion,
-  type FrequencyInput, type Motion, type PathPoint, type Size,
+  type FrequencyInput, type PathPoint, type Size,
 } from "../figures";
 import type { Run } from "../model/run";
 import { Card, Menu } from "./card";
@@ -28,11 +28,6 @@ export function PathFrequencies({ input, size, onPoint }: {
   );
 }
 
-/** What a motion does, for reading; of one that only vibrates there is nothing more to say. */
-function saidOf(motion: Motion): string {
-  return motion.kind === "vibrates" ? "" : motion.kind;
-}
-
 /** The motions at one load factor; each can be chosen to be drawn. */
 function MotionTable({ vibration, motion: chosen, onMotion }: {
   vibration: Vibration; motion: number; onMotion: (motion: number) => void;
@@ -42,8 +37,8 @@ function MotionTable({ vibration, motion: chosen, onMotion }: {
       <table>
         <caption class="unseen">Natural frequencies at load factor {formatNumber(vibration.load_factor, 5)}</caption>
         <thead><tr>
-          <th scope="col">motion</th><th scope="col">ω</th><th scope="col">ω / 2π</th><th scope="col">ω²</th>
-          <th scope="col">error</th><th scope="col" class="left">kind</th>
+          <th scope="col">motion</th><th scope="col" class="left">kind</th><th scope="col">ω</th><th scope="col">ω / 2π</th><th scope="col">ω²</th>
+          <th scope="col">error</th>
         </tr></thead>
         <tbody>
           {motionsOf(vibration.frequencies).map((motion, i) => {
@@ -53,12 +48,12 @@ function MotionTable({ vibration, motion: chosen, onMotion }: {
               <tr key={i}>
                 <td><button type="button" class="quiet" aria-pressed={i === chosen} aria-label={`Draw motion ${i + 1}`}
                             onClick={() => onMotion(i)}>{i + 1}</button></td>
+                <td class="left">{motion.kind}</td>
                 <td>{vibrates ? formatNumber(motion.omega, 5) : ""}</td>
                 <td>{vibrates ? formatNumber(motion.omega / (2 * Math.PI), 5) : ""}</td>
                 <td>{formatNumber(motion.square, 5)}{motion.imaginary === 0 ? ""
                   : ` ${motion.imaginary < 0 ? "−" : "+"} ${formatNumber(Math.abs(motion.imaginary), 5)} i`}</td>
                 <td>{error === null ? "" : formatNumber(error, 2)}</td>
-                <td class="left">{saidOf(motion)}</td>
               </tr>
             );
           })}
