@@ -75,16 +75,25 @@ void add_moment(Pixel centre, bool counter_clockwise, Arrows& arrows) {
   arrows.add(points[points.size() - 4], points.back());
 }
 
+/// Returns a force turned as the member's axis has turned at a place since it was undeformed.
+Point turned(const Point& force, const Place& place) {
+  const Point still{place.normal.y, -place.normal.x};
+  const double cosine = still.x * place.tangent.x + still.y * place.tangent.y;
+  const double sine = still.x * place.tangent.y - still.y * place.tangent.x;
+  return {cosine * force.x - sine * force.y, sine * force.x + cosine * force.y};
+}
+
 void point_arrow(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
   const std::optional<Place> place = place_of(all.scene, load.at);
   if (!place) {
     return;
   }
   const Pixel tip = to_pixel(all.view, place->moved);
-  const double size = std::hypot(load.force.x, load.force.y);
+  const Point force = load.follows ? turned(load.force, *place) : load.force;
+  const double size = std::hypot(force.x, force.y);
   if (size > 0) {
-    const double ux = all.sense(load) * load.force.x / size;
-    const double uy = -all.sense(load) * load.force.y / size;
+    const double ux = all.sense(load) * force.x / size;
+    const double uy = -all.sense(load) * force.y / size;
     const double length = kPointArrow * std::max(0.45, size / all.largest_point);
     const Pixel tail{tip.x - length * ux, tip.y - length * uy};
     arrows.add(tail, {tip.x - 3 * ux, tip.y - 3 * uy});

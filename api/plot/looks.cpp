@@ -61,6 +61,7 @@ line, path { stroke-linecap: round; stroke-linejoin: round; }
 .limit { fill: $ink; }
 .bifurcation { fill: $branch; }
 .broken { fill: $paper; stroke: $branch; stroke-width: 1.8; }
+.flutter { fill: $branch; }
 .softest { fill: $paper; stroke: $ink; stroke-width: 2; }
 .event { fill: $contact; stroke-width: 1; }
 .event.open { fill: $paper; stroke: $contact; stroke-width: 1.6; }

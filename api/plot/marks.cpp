@@ -15,6 +15,7 @@ constexpr Described kMarks[] = {{Mark::limit_max, "limit_max", "limit point"},
                                 {Mark::limit_min, "limit_min", "limit point, minimum"},
                                 {Mark::bifurcation, "bifurcation", "bifurcation"},
                                 {Mark::broken_bifurcation, "broken_bifurcation", "broken bifurcation"},
+                                {Mark::flutter, "flutter", "flutter"},
                                 {Mark::softest, "softest", "softest point"},
                                 {Mark::closed, "closed", "contact made"},
                                 {Mark::opened, "opened", "contact lost"}};
@@ -78,6 +79,8 @@ Shape mark_shape(Mark mark, Pixel at) {
       return polygon("mark bifurcation", at, {{0, -7}, {6, 0}, {0, 7}, {-6, 0}});
     case Mark::broken_bifurcation:
       return polygon("mark broken", at, {{0, -7}, {6, 0}, {0, 7}, {-6, 0}});
+    case Mark::flutter:
+      return polygon("mark flutter", at, {{-6, -6.5}, {6, -6.5}, {-6, 6.5}, {6, 6.5}});
     case Mark::softest:
       return polygon("mark softest", at, {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}});
     case Mark::closed:

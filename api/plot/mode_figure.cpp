@@ -27,6 +27,22 @@ ChosenMode read_buckling_mode(const Field& buckling, std::size_t index) {
           "Buckling mode " + std::to_string(index + 1)};
 }
 
+/// Reads a motion of a vibration analysis; motions of the load factors count one after another.
+ChosenMode read_motion(const Field& vibrations, std::size_t index) {
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < vibrations.size(); ++i) {
+    const Field vibration = vibrations.item(i);
+    const Field modes = vibration.at("modes");
+    if (index < first + modes.size()) {
+      const std::size_t own = index - first;
+      return {read_mode(modes.item(own)), vibration.at("load_factor").number(), std::nullopt,
+              "Natural motion " + std::to_string(own + 1)};
+    }
+    first += modes.size();
+  }
+  throw PlotError("/vibrations", "the result has " + std::to_string(first) + " natural motions");
+}
+
 ChosenMode read_critical_mode(const Field& result, const std::optional<std::size_t>& asked) {
   const std::vector<CriticalPoint> points = read_critical_points(result);
   for (std::size_t i = asked.value_or(0); i < points.size(); ++i) {
@@ -48,6 +64,9 @@ ChosenMode read_critical_mode(const Field& result, const std::optional<std::size
 ChosenMode read_chosen(const Field& result, const std::optional<std::size_t>& asked) {
   if (const std::optional<Field> buckling = result.find("buckling")) {
     return read_buckling_mode(*buckling, asked.value_or(0));
+  }
+  if (const std::optional<Field> vibrations = result.find("vibrations")) {
+    return read_motion(*vibrations, asked.value_or(0));
   }
   return read_critical_mode(result, asked);
 }

@@ -203,6 +203,8 @@ ModelLoad read_load(const Field& field) {
     const std::optional<Field> force = field.find("force");
     load.force = force ? read_point(*force) : Point();
     load.moment = number_or(field, "moment", 0);
+    const std::optional<Field> follows = field.find("follows");
+    load.follows = follows && follows->flag();
     return load;
   }
   if (type == "self_weight") {

@@ -64,8 +64,9 @@ struct ModelFoundation {
 struct ModelLoad {
   enum class Type { point, distributed, pressure, initial_strain, temperature, self_weight };
   Type type = Type::point;
-  Location at;  ///< location of a point load; other loads: only its member is set
-  Point force;  ///< force of a point load; per length for a distributed one
+  Location at;           ///< location of a point load; other loads: only its member is set
+  Point force;           ///< force of a point load; per length for a distributed one
+  bool follows = false;  ///< a point load turns with its place
   double moment = 0;
   double value = 0;  ///< pressure, positive when it pushes from `side`
   double side = 1;   ///< pressure acts on the left (1) or right (-1) side

@@ -201,6 +201,22 @@ std::vector<Stability> pieces_of(const std::vector<Vertex>& vertices) {
   return pieces;
 }
 
+/// Marks the pieces beyond the beginning of flutter as unstable: the number of negative eigenvalues of the
+/// tangent stiffness does not show flutter.
+void mark_flutter(const PathData& path, Curve& curve) {
+  for (const CriticalPoint& point : path.points) {
+    if (path.is_static || point.mark != Mark::flutter || point.branch != curve.branch) {
+      continue;
+    }
+    const double near = 1e-9 * curve.vertices.back().arc;  // smaller differences of arc length are rounding
+    for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
+      if (curve.vertices[i].arc >= point.arc_length - near) {
+        curve.pieces[i] = Stability::unstable;
+      }
+    }
+  }
+}
+
 std::vector<Curve> curves_of(const PathData& path, const PlotRequest& request) {
   std::vector<Curve> curves;
   for (std::size_t i = 0; i < path.branches.size(); ++i) {
@@ -210,6 +226,7 @@ std::vector<Curve> curves_of(const PathData& path, const PlotRequest& request) {
     Curve curve{i, vertices_of(path, i), {}};
     curve.pieces = pieces_of(curve.vertices);
     if (!curve.vertices.empty()) {
+      mark_flutter(path, curve);
       curves.push_back(std::move(curve));
     }
   }

@@ -262,12 +262,17 @@ class Received(Types):
             if "prefixItems" in schema:
                 return "List[float]", None
             kind, make = self.type_of(schema["items"], name + "Item")
-            return (f"PartList[{kind}]", f"PartList({kind}, {{}})") if make else (f"List[{kind}]", None)
+            return (f"PartList[{kind}]", f"PartList({self.maker(kind)}, {{}})") if make else (f"List[{kind}]", None)
         if "properties" in schema:
             kind = self.define(name, schema)
             return kind, f"{kind}({{}})"
         kind, make = self.type_of(schema["additionalProperties"], name + "Value")
-        return (f"PartMap[{kind}]", f"PartMap({kind}, {{}})") if make else (f"Dict[str, {kind}]", None)
+        return (f"PartMap[{kind}]", f"PartMap({self.maker(kind)}, {{}})") if make else (f"Dict[str, {kind}]", None)
+
+    def maker(self, kind):
+        """What makes an item of a list or map, whose type may be Optional."""
+        optional = re.fullmatch(r"Optional\[(.*)\]", kind)
+        return f"or_none({optional.group(1)})" if optional else kind
 
     def type_of_named(self, name):
         schema = self.contract.schemas[name]
@@ -355,7 +360,7 @@ class Received(Types):
         head = HEAD.format(what="Attributes of the documents that are received: results, states of jobs and sweeps, "
                                 "events.")
         return (head + "from typing import Any, Dict, List, Literal, Optional, Tuple, Union, cast\n\n"
-                + "from ._part import Part, PartList, PartMap\n\n"
+                + "from ._part import Part, PartList, PartMap, or_none\n\n"
                 + "\n".join(textwrap.wrap(f"__all__ = {json.dumps(sorted(self.names + ['COLUMNS']))}", WIDTH,
                                           subsequent_indent=" " * 11))
                 + "\n\n" + "\n".join(self.tables()) + "\n" + "\n".join(self.lines) + "\n")
@@ -466,7 +471,7 @@ class Builders:
     def methods_of(self, target, item):
         """The methods of a list: one, or one for each `type` of its items; and one for each kind of curve."""
         schema = self.contract.schemas[item]
-        singular = target[:-1]
+        singular = re.sub("(?<=ss)es$|s$", "", target)
         choices = schema.get("oneOf", [schema])
         if all(self.contract.tag(choice) for choice in choices):
             lines = []

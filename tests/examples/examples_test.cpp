@@ -138,6 +138,23 @@ TEST(Examples, PortalWithPinnedFeetSways) {
   EXPECT_EQ(result.at("branches").size(), 3U) << "it sways to either side";
 }
 
+// A cantilever under a force that follows its tip flutters at P = 20.0509536 EI/L^2 (Beck, Z. angew. Math.
+// Phys. 3, 1952; more digits from the characteristic equation of the inextensible column) and has no buckling
+// load. Its unloaded frequencies are the roots of cos b cosh b = -1 in omega^2 = b^4 EI/(m L^4). The strain
+// is 2e-7.
+TEST(Examples, BecksColumnFlutters) {
+  const json result = run_example("beck.json");
+  expect_relative(critical_load_factor(result), 20.0509536, 1e-6);
+  EXPECT_EQ(result.at("summary").at("critical_type"), "flutter");
+  EXPECT_EQ(result.at("critical_points").size(), 1U);
+  const json& frequencies = result.at("branches").at(0).at("frequencies");
+  expect_relative(frequencies.front().at("omega_squared").at(0), std::pow(1.875104068711961, 4), 1e-6);
+  expect_relative(frequencies.front().at("omega_squared").at(1), std::pow(4.694091132974174, 4), 1e-6);
+  const json& beyond = frequencies.back().at("imaginary");
+  EXPECT_LT(beyond.at(0).get<double>(), -1.0);
+  EXPECT_EQ(beyond.at(0).get<double>(), -beyond.at(1).get<double>());
+}
+
 // A long film on a bilateral base wrinkles at P = 2 (K EI)^0.5 (Hetenyi, Beams on Elastic Foundation, 1946).
 // Its length of 12 takes 6.04 of the waves of length 2 pi (EI/K)^0.25, so that a whole number of them fits
 // but for 2e-4 of the load.

@@ -1,6 +1,8 @@
 // The studio against the real service: sliders, walking, gallery, exports, mistakes.
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
+import { violations } from './support/axe.mjs';
 import { downloaded, drawnPath, openPage, settled, slide } from './support/browser.mjs';
 import { browser, close, service } from './support/stage.mjs';
 
@@ -246,6 +248,46 @@ test('each of three mistakes in the JSON is told at its place, and a right text 
   assert.ok((await page.locator('.cm-lintRange-error').count()) >= 3, 'each is marked in the text');
   await write(text.replace('-1}', '1}').replace('"c"', '"b"').replace(',"curv":1', ''));
   await page.locator('.trust-card .headline', { hasText: '9.8696' }).waitFor();  // pi^2 EI / L^2
+  await close(page);
+});
+
+test('a vibration analysis has its frequencies in a chart and a table, and draws the motion that is chosen', async () => {
+  const page = await openPage(browser, `${service.url}/#/model`);
+  await settled(page);
+  const editor = page.locator('.cm-content');
+  await editor.click();
+  await page.keyboard.press('Control+a');
+  await page.keyboard.insertText(await readFile(new URL('../clients/requests/vibration.json', import.meta.url), 'utf8'));
+  const card = page.locator('.vibration-card');
+  await card.locator('.motions tbody tr').nth(1).waitFor();
+  assert.equal(await page.locator('.trust-card .headline strong').innerText(), '3.516');  // 1.8751^2
+  const drawn = () => page.locator('.drawing-card .mode').first().getAttribute('d');
+  const first = await drawn();
+  await card.getByRole('button', { name: 'Draw motion 2' }).click();
+  await page.waitForFunction((d) => document.querySelector('.drawing-card .mode')?.getAttribute('d') !== d, first);
+  await card.getByRole('combobox').selectOption({ label: '25' });
+  await card.locator('.motions td', { hasText: 'flutters' }).nth(1).waitFor();
+  await page.getByRole('tab', { name: 'Model' }).click();
+  await page.locator('.model-form summary', { hasText: 'Loads' }).click();
+  await page.getByLabel('turns with its place').uncheck();
+  await card.locator('.motions td', { hasText: 'diverges' }).first().waitFor();  // Euler's load is pi^2 / 4
+  assert.deepEqual(await violations(page), []);
+  await close(page);
+});
+
+test('a path with frequencies shows them beside it, and its flutter', async () => {
+  const page = await openPage(browser, `${service.url}/#/model`, { viewport: { width: 1920, height: 1080 } });
+  await settled(page);
+  const request = JSON.parse(await readFile(new URL('../clients/requests/vibration.json', import.meta.url), 'utf8'));
+  request.analysis = { type: 'path', stop: { load_factor: [0, 30] }, output: { frequencies: 2 } };
+  await page.locator('.cm-content').click();
+  await page.keyboard.press('Control+a');
+  await page.keyboard.insertText(JSON.stringify(request));
+  await page.locator('.trust-card .hint', { hasText: 'flutter' }).waitFor();
+  await page.locator('.frequency-chart .marks .flutter').waitFor();
+  assert.equal(await page.locator('.path-chart .marks .flutter').count(), 1);
+  await page.getByRole('button', { name: 'Frequencies' }).click();
+  await page.locator('.frequency-chart').waitFor({ state: 'detached' });
   await close(page);
 });
 

@@ -21,6 +21,8 @@ export type FoundationState = Schemas['FoundationState'];
 export type Branch = Schemas['Branch'];
 export type CriticalPoint = Schemas['CriticalPoint'];
 export type Mode = Schemas['Mode'];
+export type Frequencies = Schemas['Frequencies'];
+export type Vibration = Schemas['Vibration'];
 
 export type Job = Schemas['Job'];
 export type JobList = Schemas['JobList'];

@@ -18,7 +18,7 @@ where they are there and asked for.
 from typing import Any, Union
 
 from . import documents, results
-from ._builders import Buckling, Critical, Path, Static
+from ._builders import Buckling, Critical, Path, Static, Vibration
 from ._client import Client
 from ._errors import (AnalysisFailed, Cancelled, Interrupted, InvalidRequest, LibraryNotFound, ServiceError,
                       SnapthroughError, SnapthroughWarning, UsageError, WorkerDied)
@@ -32,8 +32,8 @@ from ._table import Table, read_table
 
 __all__ = ["AnalysisFailed", "Buckling", "Cancelled", "Client", "Critical", "Event", "Interrupted", "InvalidRequest",
            "LibraryNotFound", "Local", "Model", "Path", "Progress", "Result", "ServiceError", "SnapthroughError",
-           "SnapthroughWarning", "Static", "Stop", "Sweep", "SweepRun", "Table", "UsageError", "WorkerDied", "check",
-           "connect", "documents", "read_table", "results", "solve", "sweep"]
+           "SnapthroughWarning", "Static", "Stop", "Sweep", "SweepRun", "Table", "UsageError", "Vibration", "WorkerDied",
+           "check", "connect", "documents", "read_table", "results", "solve", "sweep"]
 
 #: That of the project; the library says its own: Local().version.
 __version__ = "0.1.0"

@@ -57,7 +57,7 @@ class Client:
 
         Arguments:
             model: A Model, or the document of one; without an analysis a whole request, as a document or JSON text.
-            analysis: Critical, Path, Buckling, Static, or the document of one.
+            analysis: Critical, Path, Buckling, Static, Vibration, or the document of one.
             on_progress: Called while the path grows; False stops the analysis.
             stop: Stops the analysis from another thread.
             label: Name under which the job can be found.

@@ -47,7 +47,7 @@ class Local:
 
         Arguments:
             model: A Model, or the document of one; without an analysis a whole request, as a document or JSON text.
-            analysis: Critical, Path, Buckling, Static, or the document of one.
+            analysis: Critical, Path, Buckling, Static, Vibration, or the document of one.
             on_progress: Called as the path grows, on the thread of the caller; False stops the analysis.
             stop: Stops the analysis from another thread.
 

@@ -5,12 +5,12 @@ from typing import Any, Dict, List, Optional, TypeVar, Union
 
 from . import documents
 from ._buildable import AnalysisBase
-from ._builders import Buckling, Critical, ModelFields, Path, Static, SweepFields
+from ._builders import Buckling, Critical, ModelFields, Path, Static, SweepFields, Vibration
 
 _M = TypeVar("_M", bound="Model")
 
 #: Any analysis: a builder, or the document of one.
-Analysis = Union[Buckling, Critical, Path, Static, documents.Analysis]
+Analysis = Union[Buckling, Critical, Path, Static, Vibration, documents.Analysis]
 
 
 @dataclass

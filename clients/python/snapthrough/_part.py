@@ -1,5 +1,5 @@
 """Parts of documents that were received: an object with attributes, a list of them, a map of them by id."""
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Sequence, TypeVar, Union, overload
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, TypeVar, Union, overload
 
 _P = TypeVar("_P")
 
@@ -33,6 +33,11 @@ class Part:
     def __repr__(self) -> str:
         fields = ", ".join(f"{name}={_short(value)}" for name, value in self._document.items())
         return f"{type(self).__name__}({fields})"
+
+
+def or_none(make: Callable[[Dict[str, Any]], _P]) -> Callable[[Optional[Dict[str, Any]]], Optional[_P]]:
+    """What makes an item that may be null, for PartList and PartMap."""
+    return lambda document: None if document is None else make(document)
 
 
 class PartList(Sequence[_P]):

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple
 if TYPE_CHECKING:
     from ._result import Result
 
-_KINDS = ("path", "shape", "static", "buckling")
+_KINDS = ("path", "shape", "static", "buckling", "frequencies")
 
 
 def draw(result: "Result", kind: Optional[str], ax: Any) -> Any:
@@ -15,7 +15,8 @@ def draw(result: "Result", kind: Optional[str], ax: Any) -> Any:
     if ax is None:
         from matplotlib import pyplot
         _, ax = pyplot.subplots()
-    {"path": _path, "shape": _shape, "static": _static, "buckling": _buckling}[chosen](result, ax)
+    {"path": _path, "shape": _shape, "static": _static, "buckling": _buckling,
+     "frequencies": _frequencies}[chosen](result, ax)
     if result.model.title:
         ax.set_title(result.model.title, fontsize="medium", wrap=True)
     return ax
@@ -23,10 +24,11 @@ def draw(result: "Result", kind: Optional[str], ax: Any) -> Any:
 
 def _default_kind(result: "Result") -> str:
     document = result.document
-    for kind, source in (("path", "branches"), ("static", "static"), ("buckling", "buckling"), ("shape", "states")):
+    for kind, source in (("path", "branches"), ("frequencies", "vibrations"), ("static", "static"),
+                         ("buckling", "buckling"), ("shape", "states")):
         if document.get(source):
             return kind
-    raise ValueError("this result has nothing to draw: no paths, rows, buckling loads or states")
+    raise ValueError("this result has nothing to draw: no paths, frequencies, rows, buckling loads or states")
 
 
 def _unit(result: "Result", quantity: str) -> str:
@@ -51,7 +53,7 @@ def _path(result: "Result", ax: Any) -> None:
         for first, end, stable in _runs(list(branch.negative_eigenvalues)):
             line, = ax.plot(along[first:end], branch.load_factor[first:end], "-" if stable else "--", color=colour)
             colour = line.get_color()
-    marks = {"limit_max": "^", "limit_min": "v"}
+    marks = {"limit_max": "^", "limit_min": "v", "flutter": "X"}
     for point in result.critical_points:
         at = point.monitors[monitor] if monitor else point.arc_length
         ax.plot([at], [point.load_factor], marks.get(point.type, "o"), color="black", markersize=5)
@@ -95,3 +97,29 @@ def _buckling(result: "Result", ax: Any) -> None:
     ax.set_xlabel("s along each member" + _unit(result, "length"))
     ax.set_ylabel("displacement of the mode, largest 1")
     ax.legend(fontsize="small")
+
+
+def _frequency_rows(document: Dict[str, Any]) -> Iterator[List[Tuple[float, Dict[str, Any]]]]:
+    """For each list of points of a result, those with natural frequencies: load factor, frequencies."""
+    tables = document["branches"] + ([document["static"]] if document.get("static") else [])
+    for table in tables:
+        yield [row for row in zip(table["load_factor"], table.get("frequencies") or []) if row[1]]
+    yield [(one["load_factor"], one["frequencies"]) for one in document.get("vibrations") or []]
+
+
+def _frequencies(result: "Result", ax: Any) -> None:
+    found = [rows for rows in _frequency_rows(result.document) if rows]
+    if not found:
+        raise ValueError("kind: the result has no frequencies; ask for them with analysis.output.frequencies")
+    for rows in found:
+        for number in range(max(len(frequencies["omega_squared"]) for _, frequencies in rows)):
+            there = [(load, one["omega_squared"][number], bool((one.get("imaginary") or [0] * (number + 1))[number]))
+                     for load, one in rows if number < len(one["omega_squared"])]
+            colour = f"C{number % 10}"
+            ax.plot([load for load, _, _ in there], [square for _, square, _ in there], "-", color=colour)
+            for flutters, face in ((False, colour), (True, "none")):
+                marked = [(load, square) for load, square, own in there if own == flutters]
+                ax.plot([load for load, _ in marked], [square for _, square in marked], "o", color=colour,
+                        markerfacecolor=face, markersize=4)
+    ax.set_xlabel("load factor")
+    ax.set_ylabel("omega squared")

@@ -58,6 +58,18 @@ def _buckling(document: Dict[str, Any]) -> Columns:
                                                        buckling["error_estimates"]]
 
 
+def _vibrations(document: Dict[str, Any]) -> Columns:
+    rows: List[List[Any]] = []
+    for vibration in document["vibrations"]:
+        frequencies = vibration["frequencies"]
+        squares = frequencies["omega_squared"]
+        imaginary = frequencies.get("imaginary") or [0.0] * len(squares)
+        rows += [[vibration["load_factor"], number, *values] for number, values in
+                 enumerate(zip(squares, imaginary, vibration["error_estimates"]), start=1)]
+    names = ["load_factor", "mode", "omega_squared", "imaginary", "error_estimate"]
+    return names, [[row[at] for row in rows] for at in range(len(names))]
+
+
 def _states(document: Dict[str, Any]) -> Columns:
     along_members, _ = results.COLUMNS["MemberState"]
     names = ["state", "branch", "load_factor", "member"]
@@ -72,7 +84,8 @@ def _states(document: Dict[str, Any]) -> Columns:
 
 
 _TABLES = {"points": ("branches", _points), "critical_points": ("critical_points", _critical_points),
-           "static": ("static", _static), "buckling": ("buckling", _buckling), "states": ("states", _states)}
+           "static": ("static", _static), "buckling": ("buckling", _buckling), "vibrations": ("vibrations", _vibrations),
+           "states": ("states", _states)}
 
 
 class Result(results.ResultFields):
@@ -111,13 +124,14 @@ class Result(results.ResultFields):
         return [name for name, (source, _) in _TABLES.items() if self._document.get(source)]
 
     def columns(self, table: Optional[str] = None) -> Dict[str, List[Any]]:
-        """A table as lists by column, with the columns of the CSV table (docs/service.md).
+        """A table as lists by column; all but "vibrations" have the columns of the CSV table (docs/service.md).
 
-        `table` is "points" (of paths), "critical_points", "static", "buckling" or "states"; by default the first of
-        points, static, buckling and critical_points that is there.
+        `table` is "points" (of paths), "critical_points", "static", "buckling", "vibrations" (one row a load factor and
+        mode) or "states"; by default the first of points, vibrations, static, buckling and critical_points that is
+        there.
         """
-        name = table or next((name for name in ("points", "static", "buckling") if name in self.tables()),
-                             "critical_points")
+        usual = ("points", "vibrations", "static", "buckling")
+        name = table or next((name for name in usual if name in self.tables()), "critical_points")
         if name not in _TABLES:
             raise ValueError(f"table: {name!r} is none of {', '.join(_TABLES)}")
         source, make = _TABLES[name]
@@ -146,7 +160,8 @@ class Result(results.ResultFields):
         """Draws with matplotlib and gives the axes back.
 
         `kind` is "path" (load factor over the first monitor, or over the arc length; dashed where it is unstable),
-        "shape" (states over the unloaded axis), "static" or "buckling"; by default what the result has.
+        "shape" (states over the unloaded axis), "static", "buckling" or "frequencies" (omega squared over the load
+        factor, open marks where a pair flutters); by default what the result has.
         """
         return _plot.draw(self, kind, ax)
 

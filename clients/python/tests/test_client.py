@@ -42,7 +42,7 @@ class SameAnswers(WithService):
                 told = ("failed", error.code, error.detail, without_time(error.reached.document))
         return told, [str(warning.message) for warning in caught]
 
-    def test_the_twelve_requests_bit_for_bit(self):
+    def test_the_thirteen_requests_bit_for_bit(self):
         for name, expected in EXPECTED.items():
             if name == "cancelled":
                 continue

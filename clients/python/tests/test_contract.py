@@ -42,7 +42,8 @@ class Generated(Case):
         self.assertIn("    colour: str", generate.Documents(contract).text())
 
     def test_every_field_of_an_analysis_is_that_of_a_builder(self):
-        builders = (snapthrough.Buckling, snapthrough.Critical, snapthrough.Path, snapthrough.Static)
+        builders = (snapthrough.Buckling, snapthrough.Critical, snapthrough.Path, snapthrough.Static,
+                    snapthrough.Vibration)
         fields = {field.name for builder in builders for field in dataclasses.fields(builder)}
         self.assertEqual(fields | {"type"}, set(SCHEMAS["Analysis"]["properties"]))
 
@@ -116,6 +117,16 @@ class Builders(Case):
                          {"type": "path", "stop": {"limit_points": 2}, "control": "load"})
         self.assertEqual(snapthrough.Buckling(modes=3, reversed=True).document,
                          {"type": "buckling", "modes": 3, "reversed": True})
+
+    def test_a_vibration_is_exactly_the_document(self):
+        model = snapthrough.Model(damping={"stiffness": 1e-3}).mass("tip", mass=2).mass(("m", 0.5), inertia=0.1)
+        model.point_load("tip", [-1, 0], follows=True)
+        self.assertEqual(model.document["masses"], [{"at": {"node": "tip"}, "mass": 2},
+                                                    {"at": {"member": "m", "fraction": 0.5}, "inertia": 0.1}])
+        self.assertEqual(model.document["damping"], {"stiffness": 1e-3})
+        self.assertTrue(model.document["loads"][0]["follows"])
+        self.assertEqual(snapthrough.Vibration(modes=3, load_factors=[0, 1]).document,
+                         {"type": "vibration", "modes": 3, "load_factors": [0, 1]})
 
     def test_a_sweep_is_exactly_the_document(self):
         sweep = snapthrough.Sweep(column(), snapthrough.Critical(), "grid", ["/summary/critical_load_factor"])

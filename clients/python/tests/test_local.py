@@ -1,5 +1,6 @@
 """Local: analyses in this process."""
 import copy
+import json
 import os
 import pickle
 import signal
@@ -12,7 +13,7 @@ import warnings
 from .support import EXPECTED, LIBRARY, Case, column, interrupt_after, local, request, snapthrough, without_time
 
 
-class Twelve(Case):
+class Shared(Case):
     def solve(self, name):
         """What a shared request comes to, in the words of expected.json."""
         steps = []
@@ -231,7 +232,7 @@ class Calls(Case):
 class Tables(Case):
     def test_columns_are_those_of_each_table(self):
         for name, tables in {"arch": ["points", "critical_points", "states"], "static": ["static", "states"],
-                             "buckling": ["buckling"]}.items():
+                             "buckling": ["buckling"], "vibration": ["static", "vibrations", "states"]}.items():
             self.assertEqual(local().solve(request(name)).tables(), tables)
 
     def test_a_table_that_is_not_there_is_told(self):
@@ -246,6 +247,25 @@ class Tables(Case):
         columns = result.columns()
         self.assertEqual(columns["branch"], [branch.id for branch in result.branches for _ in branch.load_factor])
         self.assertEqual(columns["sway"], [value for branch in result.branches for value in branch.monitors["sway"]])
+
+    def test_vibrations_have_a_row_for_each_load_factor_and_mode(self):
+        columns = local().solve(request("vibration")).columns()
+        self.assertEqual(list(zip(columns["load_factor"], columns["mode"])),
+                         [(load, mode) for load in (0.0, 10.0, 25.0) for mode in (1, 2)])
+        self.assertAlmostEqual(columns["omega_squared"][0], 1.8751040687 ** 4, places=3)
+        self.assertEqual(columns["imaginary"][:4], [0.0] * 4)
+        self.assertLess(columns["imaginary"][4], -1.0)
+        self.assertEqual(columns["imaginary"][5], -columns["imaginary"][4])
+
+    def test_frequencies_of_static_rows(self):
+        document = json.loads(request("vibration"))
+        document["analysis"] = {"type": "static", "load_factors": [0, 10], "output": {"frequencies": 2}}
+        result, vibrations = local().solve(document), local().solve(request("vibration")).vibrations
+        for mine, other in zip(result.static.frequencies, vibrations):
+            for square, expected in zip(mine.omega_squared, other.frequencies.omega_squared):
+                self.assertAlmostEqual(square / expected, 1, places=3)
+        result.static.document["frequencies"][0] = None  # a one-sided support touches without pressure there
+        self.assertIsNone(result.static.frequencies[0])
 
     def test_frames_and_arrays(self):
         try:

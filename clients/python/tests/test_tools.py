@@ -84,7 +84,7 @@ class Drawings(Case):
         matplotlib.use("Agg")
         from matplotlib import pyplot
         for name, kinds in {"arch": ["path", "shape"], "static": ["static", "shape"], "buckling": ["buckling"],
-                            "frame": [None]}.items():
+                            "frame": [None], "vibration": [None, "frequencies", "shape"]}.items():
             result = local().solve(request(name))
             for kind in kinds:
                 axes = result.plot(kind)

@@ -94,6 +94,25 @@ TEST(PathFigure, StabilityChangesAtTheLimitPoint) {
   EXPECT_NEAR(before.front().second, y.pixel(0), kPixel);
 }
 
+// The number of negative eigenvalues is 0 on both sides of flutter.
+TEST(PathFigure, ThePathIsUnstableBeyondFlutter) {
+  const json result = solved_example("beck");
+  const double load = result.at("critical_points").at(0).at("load_factor");
+  const std::string text = svg_of(result, of_kind(PlotKind::path));
+  const SvgReader svg(text);
+  const auto [x, y] = testing::read_axes(svg);
+  for (const char* looks : {"stable", "unstable"}) {
+    const auto found = svg.with(looks);
+    const auto curve =
+        std::find_if(found.begin(), found.end(), [](const SvgElement& one) { return one.name == "path"; });
+    ASSERT_NE(curve, found.end()) << looks;
+    const auto points = testing::read_points(curve->attribute("d"));
+    const auto& end = std::string_view(looks) == "stable" ? points.back() : points.front();
+    EXPECT_NEAR(end.second, y.pixel(load), kPixel) << looks;
+  }
+  EXPECT_THAT(svg.with("flutter"), SizeIs(2)) << "the mark at its load and that of the legend";
+}
+
 TEST(PathFigure, BranchesAreDrawnAndOneCanBeChosen) {
   const json result = solved_example("portal_sway");
   ASSERT_GT(result.at("branches").size(), 1U);
@@ -204,6 +223,29 @@ TEST(ShapeFigure, TheDefaultStateIsTheFirstCriticalPointOrTheLast) {
   EXPECT_THAT(svg_of(pile, of_kind(PlotKind::shape)), HasSubstr("at load factor 1,"));
 }
 
+// A cantilever along x that a force bends up: the arrow is across the axis at the tip, whose rotation the
+// result has, or keeps its direction.
+TEST(ShapeFigure, AFollowingForceTurnsWithItsPlace) {
+  json request = testing::example_request("beck");
+  request["model"]["nodes"][1] = {{"id", "tip"}, {"x", 1}, {"y", 0}};
+  request["model"]["loads"][0]["force"] = {0, 1};
+  request["analysis"] = {{"type", "static"}, {"load_factors", {2}}};
+  PlotRequest plot = of_kind(PlotKind::shape);
+  plot.solved_request = &request;
+  for (const bool follows : {false, true}) {
+    request["model"]["loads"][0]["follows"] = follows;
+    const json result = solved(request);
+    const double rotation = result["states"][0]["members"]["column"]["rotation"].back();
+    ASSERT_GT(rotation, 0.5);
+    const std::string text = svg_of(result, plot);
+    const SvgReader svg(text);
+    ASSERT_THAT(svg.with("load"), SizeIs(1));
+    const auto arrow = testing::read_points(svg.with("load")[0].attribute("d"));
+    const double angle = std::atan2(arrow[0].second - arrow[1].second, arrow[1].first - arrow[0].first);
+    EXPECT_NEAR(angle, 0.5 * M_PI + (follows ? rotation : 0.0), 2e-3) << follows;
+  }
+}
+
 TEST(ShapeFigure, AnotherRequestIsRefused) {
   const json other = testing::example_request("frame_portal");
   PlotRequest plot = of_kind(PlotKind::shape);
@@ -229,6 +271,17 @@ TEST(ModeFigure, BucklingModesAreDrawnOnTheStructureOrAlongTheMembers) {
   EXPECT_THAT(drawing, HasSubstr("Buckling mode 1 at load factor"));
   plot.mode = 1;
   EXPECT_THAT(svg_of(result, plot), HasSubstr("Buckling mode 2 at load factor"));
+}
+
+TEST(ModeFigure, MotionsOfAllLoadFactorsAreCounted) {
+  json request = testing::example_request("beck");
+  request["analysis"] = {{"type", "vibration"}, {"load_factors", {0, 10}}, {"modes", 2}};
+  const json result = solved(request);
+  PlotRequest plot = of_kind(PlotKind::mode);
+  plot.mode = 3;
+  EXPECT_THAT(svg_of(result, plot), HasSubstr("Natural motion 2 at load factor 10"));
+  plot.mode = 4;
+  EXPECT_THROW((void)svg_of(result, plot), PlotError);
 }
 
 TEST(SweepFigure, DotsStandAtTheirValues) {
@@ -335,7 +388,7 @@ TEST(Figure, EveryKindIsTheSameTextEachTime) {
 }
 
 TEST(Figure, EveryExampleHasItsDefaultFigure) {
-  for (const char* name : {"arch_no_base", "buried_pipe", "column_between_walls", "column_winkler",
+  for (const char* name : {"arch_no_base", "beck", "buried_pipe", "column_between_walls", "column_winkler",
                            "film_on_substrate", "frame_nearly_unstable", "frame_portal", "pile_in_soil",
                            "pipe_under_pressure", "pipeline_upheaval", "portal_sway", "tunnel_arch"}) {
     const json request = testing::example_request(name);

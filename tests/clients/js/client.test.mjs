@@ -1,4 +1,4 @@
-// The JavaScript client in Node against the executable: the twelve requests and the sweep that every client is given, bit for bit
+// The JavaScript client in Node against the executable: the thirteen requests and the sweep that every client is given, bit for bit
 // what the command line answers.
 //   SERVICE_EXECUTABLE=build/release/snapthrough node --test tests/clients/js
 import assert from 'node:assert/strict';
@@ -32,7 +32,7 @@ after(async () => service.stop());
 
 const client = (options = {}) => new Client({url: service.address, ...options});
 
-describe('the twelve requests', () => {
+describe('the thirteen requests', () => {
   for (const [name, {outcome, code, errors, warnings = []}] of Object.entries(expected)) {
     test(name, async () => {
       const told = [];

@@ -123,7 +123,7 @@ export class Drawer {
     often(() => { (model.supports ??= []).forEach((one, i) => { one.node = model.nodes[i % model.nodes.length].id; }); });
     often(() => this.hold(model));
     const loads = loadsOf(model);
-    often(() => [...(model.springs ?? []), ...(model.monitors ?? []), ...loads].forEach((one) => one.at && locate(one.at)));
+    often(() => [...(model.springs ?? []), ...(model.monitors ?? []), ...(model.masses ?? []), ...loads].forEach((one) => one.at && locate(one.at)));
     often(() => (model.springs ?? []).filter((one) => one.to).forEach((one) => {
       Object.assign(one, {at: {node: model.nodes[0].id}, to: {node: model.nodes.at(-1).id}});
     }));
@@ -148,7 +148,7 @@ export class Drawer {
   agreeSections(model) {
     for (const one of model.sections) {
       if ('mass' in one) delete one.density;
-      for (const number of [one.EA, one.EI, one.GA, one.mass]) ascend(number);
+      for (const number of [one.EA, one.EI, one.GA, one.mass, one.rotary_inertia]) ascend(number);
       if ('nu' in one) delete one.G;
       if (one.shape?.type === 'tube') one.shape.thickness = one.shape.diameter / 4 || one.shape.diameter;
       if (one.shape?.type === 'i_section') {
@@ -187,6 +187,19 @@ export class Drawer {
     }
   }
 
+  /** Motion of the ground that the support can follow. */
+  agreeGround(model) {
+    for (const one of model.springs ?? []) {
+      if (one.to) delete one.displacement;
+      for (const field of one.direction === 'rotation' ? ['x', 'y'] : ['rotation']) delete one.displacement?.[field];
+    }
+    for (const one of (model.foundations ?? []).filter(({displacement}) => displacement)) {
+      delete one.shear_stiffness;
+      ascend(one.displacement.x);
+      ascend(one.displacement.y);
+    }
+  }
+
   /** What goes with what between fields. */
   agree(model, analysis) {
     const order = (pair) => { if (pair) pair.sort((a, b) => a - b); if (pair && pair[0] === pair[1]) pair[0] -= 0.5; };
@@ -198,6 +211,7 @@ export class Drawer {
       else delete analysis.discretization;
     }
     this.agreeLaws(model);
+    this.agreeGround(model);
     const loads = loadsOf(model);
     for (const one of [...(model.foundations ?? []), ...loads]) if (one.range) order(one.range);
     for (const value of loads.flatMap((one) => Object.values(one))) {
@@ -210,8 +224,9 @@ export class Drawer {
     }
     if (analysis.sensitivities) analysis.sensitivities = ['/model/nodes/0/x', '/model/loads/0/type'].slice(0, this.below(6) === 0 ? 2 : 1);
     if (analysis.geometry === 'linear') analysis.type = 'static';
+    if (!['path', 'static'].includes(analysis.type)) delete analysis.output?.frequencies;
     delete analysis.step;
-    const mayLower = analysis.type !== 'buckling' && analysis.geometry !== 'linear' && !analysis.start;
+    const mayLower = !['buckling', 'vibration'].includes(analysis.type) && analysis.geometry !== 'linear' && !analysis.start;
     let worst = 0;
     if (model.imperfections) model.imperfections = model.imperfections.filter((one) => one.type !== 'worst' || (mayLower && ++worst === 1));
     const monitor = this.pick(model.monitors?.map((one) => one.id) ?? []);

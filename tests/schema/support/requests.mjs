@@ -107,6 +107,9 @@ export function answerable() {
   }
   add('strains too large for the theory', {...column(), sections: [{id: 'shaft', EA: 10, EI: 100}]},
       {type: 'path', stop: {load_factor: [-1, 2]}});
+  const {model: flutters} = examples['beck.json'];
+  add('vibration', flutters, {type: 'vibration', load_factors: [0, 25], modes: 2});
+  add('static, frequencies', flutters, {type: 'static', load_factors: [1, 25], output: {frequencies: 2}});
   add('buckling, arch', arch(), {type: 'buckling', modes: 2});
   add('buckling, portal', portal(), {type: 'buckling', modes: 2});
   add('buckling, opposite actions', arch(), {type: 'buckling', modes: 2, reversed: true});
@@ -124,10 +127,13 @@ export function failing() {
   const pressed = {...column(), loads: [{type: 'point', at: {node: 'head'}, force: [0, 1]}],
                    imperfections: [{type: 'mode', number: 1, amplitude: 1e-3}]};
   const shallow = arch();
+  const touching = {...column(), sections: [{id: 'shaft', EA: 1e7, EI: 100, mass: 1}],
+                    foundations: [{id: 'base', member: 'column', stiffness: 10, reaction: 'compression_only'}]};
   return {
     beyond_limit_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5], unstable: 'follow'}},
     beyond_critical_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5]}},
     fewer_modes: {model: column(), analysis: {type: 'buckling', modes: 50, discretization: {elements: 2, order: 1}}},
+    no_linear_vibration: {model: touching, analysis: {type: 'vibration'}},
     no_buckling_mode: {model: pressed, analysis: {type: 'critical'}},
     no_worst_imperfection: {model: {...pressed, imperfections: [{type: 'worst', norm: 'rms', amplitude: 1e-3}]}, analysis: {type: 'critical'}},
     constant_actions_limit: {model: {...arch(), loads: [{...arch().loads[0], force: [0, -1e5], pattern: 'constant'}, arch().loads[0]]},

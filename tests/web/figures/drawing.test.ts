@@ -169,6 +169,22 @@ test("arrows point where loads push, with their heads on the structure", () => {
   assert.ok(suction.every(({ tail, tip }) => tip.y < tail.y - 15));
 });
 
+test("a force that follows turns with its place, another one keeps its direction", () => {
+  const { member, fraction } = { member: "column", fraction: 1 };
+  const { request, result } = readCase("beck");
+  const state = must(result.states[0]);
+  const still = must(state.members[member]);
+  // the column along x, turned by a right angle: it points up
+  const members = { [member]: { ...still, x: still.y0, y: still.x0 } };
+  for (const follows of [true, false]) {
+    const loads = [{ type: "point" as const, at: { member, fraction }, force: [-1, 0] as [number, number], follows }];
+    const picture = drawingFigure({ model: { ...request.model, loads }, state: { ...state, members } }, size);
+    const [tail, neck] = must(piecesOf(only(picture, "load"))[0]);
+    const [across, upward] = [must(neck).x - must(tail).x, must(tail).y - must(neck).y];
+    assert.ok(follows ? Math.abs(across) < 0.1 && upward < -20 : across < -20 && Math.abs(upward) < 0.1, `${across} ${upward}`);
+  }
+});
+
 test("loads are those of the load factor, unless they are constant", () => {
   const at = { member: "m", fraction: 0.5 };
   const load = { type: "point" as const, at, force: [0, -2] as [number, number] };

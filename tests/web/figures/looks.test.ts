@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
-  bucklingFigure, defaultQuantities, drawingFigure, lawChart, lawFigure, pathFigure, sectionsFigure, sweepLine, sweepMap, toText,
+  bucklingFigure, defaultQuantities, drawingFigure, frequencyFigure, hasFrequencies, lawChart, lawFigure, pathFigure, sectionsFigure, sweepLine, sweepMap, toText,
   type LawInput, type Shape,
 } from "../../../web/src/figures/index";
 import { classesOf, kCases, must, readCase, readTable, shapesOf, styleSheet } from "./support";
@@ -30,6 +30,7 @@ function everyFigure(): Shape[] {
     }
     const shadows = (["earlier", "pinned"] as const).map((kind) => ({ kind, label: kind, result }));
     figures.push(pathFigure({ result, ...defaultQuantities(result), shadows, chosen: { branch: 0, index: 1 } }, size));
+    if (hasFrequencies(result)) figures.push(frequencyFigure({ result, load: 1, chosen: { row: 0, motion: 0 } }, size));
     if (result.buckling) figures.push(bucklingFigure({ buckling: result.buckling, chosen: 0 }, size));
   }
   figures.push(...lawFigures());

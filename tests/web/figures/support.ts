@@ -36,7 +36,7 @@ export function styleSheet(): string {
   return readFileSync(join(FIGURES, "figures.css"), "utf8");
 }
 
-export const kCases = ["arch_branches", "arch_outside", "bays", "curves", "pile", "pipe", "portal", "ring", "springs"] as const;
+export const kCases = ["arch_branches", "arch_outside", "bays", "beck", "curves", "pile", "pipe", "portal", "ring", "springs"] as const;
 
 /** A value that must be there. */
 export function must<T>(value: T | null | undefined, what = "value"): T {

@@ -9,7 +9,7 @@ export {
   chosenShape, criticalNear, nearestOnPath, pathChart, pathFigure, softestNear, type PathChart, type PathInput, type PathShadow,
 } from "./chart/path";
 export {
-  branchesOf, defaultQuantities, isReversed, quantityLabel, rowsOfStates, stateNear, walk, type PathPoint, type PathQuantity,
+  branchesOf, defaultQuantities, flutterArc, isReversed, quantityLabel, rowsOfStates, stateNear, walk, type PathPoint, type PathQuantity,
   type PathResult,
 } from "./chart/curves";
 export { hasStiffness, softestPoint, type SoftestPoint } from "./chart/stiffness";
@@ -18,7 +18,11 @@ export {
 } from "./chart/sections";
 export { drawnLaw, lawChart, lawFigure, type LawChart, type LawInput } from "./chart/law";
 export { bucklingFigure, nearestMode, type BucklingInput } from "./chart/buckling";
+export {
+  frequencyChart, frequencyFigure, hasFrequencies, motionsOf, nearestMotion, type ChosenMotion, type FrequencyChart,
+  type FrequencyInput, type Motion,
+} from "./chart/frequencies";
 export { nearestInSweep, sweepLine, sweepLineChart, type SweepLineChart, type SweepLineInput } from "./chart/sweep_line";
 export { sweepMap, sweepMapChart, sweepMapLocate, type SweepMapChart, type SweepMapInput } from "./chart/sweep_map";
 export { columnLabel, errorsOf, failureText, type SweepAxis, type Table } from "./chart/sweep";
-export { lawTable, pathTable, sectionTable, sweepTable, tableCsv, tableText, type Cell, type FigureTable } from "./tables";
+export { frequencyTable, lawTable, pathTable, sectionTable, sweepTable, tableCsv, tableText, type Cell, type FigureTable } from "./tables";

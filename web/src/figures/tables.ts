@@ -4,6 +4,7 @@ import { at } from "./geometry";
 import { exactNumber, formatNumber, unitOf, withUnit, type Units } from "./numbers";
 import type { PathInput } from "./chart/path";
 import { branchesOf, type Monitor } from "./chart/curves";
+import { motionsOf, type FrequencySource } from "./chart/frequencies";
 import { drawnLaw, lawLabels, type LawInput } from "./chart/law";
 import { kSections, sectionLines, type SectionQuantity, type SectionsInput } from "./chart/sections";
 import { columnLabel, type Table } from "./chart/sweep";
@@ -40,6 +41,22 @@ function monitorColumn(id: string, monitors: readonly Monitor[], units: Units | 
   const monitor = monitors.find((item) => item.id === id);
   if (!monitor) return id;
   return withUnit(`${id} ${monitor.component}`, unitOf(units, monitor.component === "rotation" ? "rotation" : "length"));
+}
+
+/** One row a motion at each load factor with frequencies: exact squares of circular frequencies, and what the motion does. */
+export function frequencyTable(result: FrequencySource): FigureTable {
+  const columns = ["branch", "load factor", "motion", "omega squared", "imaginary part", "error estimate", "kind"];
+  const vibrations = (result.vibrations ?? []).map((one) =>
+    ({ branch: null, load: one.load_factor, frequencies: one.frequencies, errors: one.error_estimates }));
+  const tables = result.branches.length > 0 ? result.branches : result.static ? [result.static] : [];
+  const rows = tables.flatMap((table, branch) => (table.frequencies ?? []).map((frequencies, i) =>
+    ({ branch, load: at(table.load_factor, i), frequencies, errors: [] as (number | null)[] })));
+  return {
+    columns,
+    rows: [...vibrations, ...rows].flatMap(({ branch, load, frequencies, errors }) =>
+      (frequencies ? motionsOf(frequencies) : []).map(({ square, imaginary, kind }, i): Cell[] =>
+        [branch, load, i + 1, square, imaginary, errors[i] ?? null, kind])),
+  };
 }
 
 /** One row a point of every branch: branch, load factor, monitors as in the result, stability, stiffness ratio, contact. */

@@ -11,7 +11,7 @@ import { kindOf } from "../views/trust_card";
 
 const kEvery = 2000;  // ms
 const kPage = 25;
-const kAnalyses = ["critical", "path", "buckling", "static"] as const;
+const kAnalyses = ["critical", "path", "buckling", "static", "vibration"] as const;
 
 interface Critical {
   load: number | null;
@@ -50,7 +50,7 @@ function CriticalCells({ job }: { job: Job }) {
   const [critical, setCritical] = useState<Critical | null>(null);
   useEffect(() => {
     let current = true;
-    if (job.status === "successful" && job.analysis !== "static") {
+    if (job.status === "successful" && job.analysis !== "static" && job.analysis !== "vibration") {
       criticalOf(job).then((value) => (current ? setCritical(value) : undefined), () => undefined);
     }
     return () => {

@@ -41,6 +41,7 @@ export function forPictures(request: RequestDocument, steps: number | null, live
     }
     case "critical":
     case "static":
+    case "vibration":
       return { model: withMonitor(request.model), analysis: { ...request.analysis, output: { ...output, states: "all" } } };
     case "buckling":
       return { ...request, analysis: { ...request.analysis, modes: Math.max(kModes, request.analysis.modes ?? 1), output } };
@@ -82,7 +83,7 @@ export function loadsOfStations(branches: readonly Branch[]): number[] {
   return loads;
 }
 
-/** The same analysis with states all along its paths and at its softest point; null when it has no paths to walk. */
+/** The same analysis with states all along its paths and at its softest point, without frequencies; null when it has no paths to walk. */
 export function forWalking(request: RequestDocument, result: Result): RequestDocument | null {
   const { softest } = result.summary;
   const between = softest && softest.stiffness_ratio > 0 ? [softest.load_factor] : [];
@@ -90,6 +91,7 @@ export function forWalking(request: RequestDocument, result: Result): RequestDoc
   if (request.analysis.type !== "path" || loads.length === 0) return null;
   const output = {
     ...request.analysis.output, states: { at_load_factors: loads }, points_per_member: pointsPerMember(request.model, kShapePoints),
+    frequencies: 0,
   };
   return { model: withMonitor(request.model), analysis: { ...request.analysis, output } };
 }

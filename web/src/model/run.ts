@@ -1,7 +1,7 @@
 // A result with the request that it answers, and where along its paths the states are.
 
 import type { Branch, Location, Model, RequestDocument, Result, State } from "../api/documents";
-import { branchesOf } from "../figures";
+import { branchesOf, flutterArc } from "../figures";
 import type { Choice } from "./gallery";
 
 /** A state and its place on a path: the branch's index and the arc length there. */
@@ -28,12 +28,13 @@ export interface Run {
   kept: boolean;
 }
 
-/** Whether a state that was reached on a path has negative eigenvalues there; a critical point itself is neither. */
+/** Whether a state that was reached on a path has negative eigenvalues or flutters there; a critical point itself is neither. */
 export function isUnstable(run: Run, station: Station): boolean {
   const branch = branchesOf(run.result)[station.branch];
   const critical = run.result.critical_points.some((point) =>
     Math.abs(point.load_factor - station.load) <= 1e-6 * Math.abs(station.load));
   if (!branch || critical) return false;
+  if (!run.result.static && station.arc > flutterArc(run.result, station.branch)) return true;
   const spans = branch.arc_length.map((arc) => Math.abs(arc - station.arc));
   return (branch.negative_eigenvalues[spans.indexOf(Math.min(...spans))] ?? 0) > 0;
 }

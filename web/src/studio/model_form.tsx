@@ -22,7 +22,7 @@ interface FormProps {
 
 const kLists = [
   ["nodes", "Nodes"], ["sections", "Sections"], ["members", "Members"], ["supports", "Supports"], ["springs", "Springs"],
-  ["foundations", "Foundations"], ["loads", "Loads"], ["imperfections", "Imperfections"],
+  ["foundations", "Foundations"], ["loads", "Loads"], ["masses", "Masses"], ["imperfections", "Imperfections"],
 ] as const;
 
 /** Fields with a few words to choose from, by their list; the first is the default. */
@@ -92,6 +92,18 @@ function ChoiceField({ request, onChange, pointer, name, options }: FormProps & 
   );
 }
 
+/** A field that is true or left out. */
+function FlagField({ request, onChange, pointer, name }: FormProps & { pointer: string; name: string }) {
+  return (
+    <div class="field checks">
+      <label>
+        <input type="checkbox" checked={valueAt(request, pointer) === true}
+               onChange={(event) => onChange(withValue(request, pointer, event.currentTarget.checked))} />{name}
+      </label>
+    </div>
+  );
+}
+
 const kComponents = ["x", "y", "rotation"] as const;
 
 function FixedField({ request, onChange, pointer }: FormProps & { pointer: string }) {
@@ -112,7 +124,8 @@ function FixedField({ request, onChange, pointer }: FormProps & { pointer: strin
 }
 
 function titleOf(item: Record<string, unknown>, index: number): string {
-  const name = item["id"] ?? item["node"] ?? item["member"] ?? "";
+  const place = (item["at"] ?? {}) as Record<string, unknown>;
+  const name = item["id"] ?? item["node"] ?? item["member"] ?? place["node"] ?? place["member"] ?? "";
   return `${typeof item["type"] === "string" ? `${item["type"].replace(/_/g, " ")} ` : ""}${typeof name === "string" ? name : ""}`.trim() ||
     String(index + 1);
 }
@@ -143,6 +156,8 @@ function Item({ list, index, ...form }: FormProps & { list: string; index: numbe
       ))}
       {list === "springs" || list === "foundations"
         ? <LawFigure list={list} support={fields} units={form.request.model.units} /> : null}
+      {list === "loads" && fields["type"] === "point"
+        ? <FlagField {...form} pointer={`${at}/follows`} name="turns with its place" /> : null}
       {list === "supports" ? <FixedField {...form} pointer={`${at}/fixed`} /> : null}
     </div>
   );
@@ -157,6 +172,24 @@ function Part({ heading, told, wrong, children }: {
     if (wrong && place.current) place.current.open = true;
   }, [wrong]);
   return <details ref={place}><summary>{heading}<span>{told}</span></summary>{children}</details>;
+}
+
+function DampingPart(form: FormProps) {
+  const { damping } = form.request.model;
+  const wrong = form.findings.filter((one) => one.pointer.startsWith("/model/damping"));
+  if (!damping && wrong.length === 0) return null;
+  const numbers = numbersIn(damping);
+  return (
+    <Part heading="Damping" told={numbers.length} wrong={wrong.length > 0}>
+      <div class="item">
+        {wrong.filter((one) => typeof valueAt(form.request, one.pointer) !== "number")
+          .map((one) => <p class="wrong" key={one.pointer}>{one.detail}</p>)}
+        {numbers.map(({ pointer }) => (
+          <NumberField key={pointer} {...form} pointer={`/model/damping${pointer}`} name={fieldName(pointer, 0)} />
+        ))}
+      </div>
+    </Part>
+  );
 }
 
 export function ModelForm(form: FormProps) {
@@ -175,9 +208,10 @@ export function ModelForm(form: FormProps) {
           </Part>
         );
       })}
+      <DampingPart {...form} />
       <Part heading="Analysis" told={request.analysis.type} wrong={findings.some((one) => one.pointer.startsWith("/analysis"))}>
         <div class="item">
-          <ChoiceField {...form} pointer="/analysis/type" name="type" options={["critical", "path", "buckling", "static"]} />
+          <ChoiceField {...form} pointer="/analysis/type" name="type" options={["critical", "path", "buckling", "static", "vibration"]} />
           {request.analysis.type === "path"
             ? <ChoiceField {...form} pointer="/analysis/branches/follow" name="branches" options={["primary", "first", "all"]} /> : null}
           {findings.filter((one) => one.pointer.startsWith("/analysis")).map((one) => (

@@ -25,6 +25,7 @@ function rangeOf(sliders: readonly Slider[], index: number, count: number): Rang
 /** Outputs that answer most questions, by what the analysis gives. */
 function outputsOf(request: RequestDocument): string[] {
   if (request.analysis.type === "buckling") return ["/buckling/load_factors/0"];
+  if (request.analysis.type === "vibration") return ["/vibrations/0/frequencies/omega_squared/0"];
   const monitors = (request.model.monitors ?? []).slice(0, 3);
   const places = request.analysis.type === "static" ? [] : monitors.map(({ id }) =>
     `/critical_points/0/monitors/${id.replace(/~/g, "~0").replace(/\//g, "~1")}`);

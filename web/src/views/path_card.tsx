@@ -8,13 +8,15 @@ import { useSize } from "../app/size";
 import { asSentence } from "../app/words";
 import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
-  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, formatNumber, formatWithUnit, hasStiffness, isReversed,
+  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, formatNumber, formatWithUnit, frequencyTable, hasFrequencies,
+  hasStiffness, isReversed,
   nearestMode, nearestOnPath, pathChart, pathFigure, pathTable, quantityLabel, softestNear, softestPoint, tableCsv, unitOf,
   type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
 } from "../figures";
 import { choiceOf, lengthOf, rowOf, stationFor, type Run } from "../model/run";
 import type { Choice } from "../model/gallery";
 import { Card, Menu } from "./card";
+import { PathFrequencies } from "./frequency_card";
 import { LongTable } from "./long_table";
 
 const kPlayFrame = 70;  // ms that each state is shown for
@@ -262,6 +264,37 @@ function useStiffness(result: PathResult): Stiffness {
   return { shown, there, toggle: () => setWanted(!shown) };
 }
 
+const kBeside = 560;  // px of width that have room for two charts
+
+/** Frequencies are shown, where the path has them, beside the path or in its place, until the user says otherwise. */
+function useFrequencies(result: PathResult, size: Size | null): { there: boolean; shown: boolean; path: Size | null; chart: Size | null;
+                                                                   toggle: () => void } {
+  const roomy = size !== null && size.width >= kBeside;
+  const [wanted, setWanted] = useState<boolean | null>(null);
+  const there = useMemo(() => hasFrequencies(result), [result]);
+  const shown = there && (wanted ?? roomy);
+  const half = useMemo(() => size && { width: Math.floor(size.width / 2), height: size.height }, [size]);
+  const chart = !shown ? null : roomy ? half : size;
+  return { there, shown, chart, path: !shown ? size : roomy ? half : null, toggle: () => setWanted(!shown) };
+}
+
+function PathMenu({ name, input, take, twin, toggle }: {
+  name: string; input: PathInput; take: () => ReturnType<typeof pathFigure>; twin: boolean; toggle: () => void;
+}) {
+  const frequencies = hasFrequencies(input.result)
+    ? [{ text: "CSV of frequencies", act: () => saveText(`${name}-frequencies.csv`, tableCsv(frequencyTable(input.result)), "text/csv") }]
+    : [];
+  return (
+    <Menu label="Export" items={[
+      { text: twin ? "Show the chart" : "Show as table", act: toggle },
+      { text: "SVG", act: () => saveSvg(`${name}-path.svg`, take()) },
+      { text: "PNG", act: () => void savePng(`${name}-path.png`, take()) },
+      { text: "CSV", act: () => saveText(`${name}-path.csv`, tableCsv(pathTable(input)), "text/csv") },
+      ...frequencies,
+    ]} />
+  );
+}
+
 export function PathCard(props: PathProps) {
   const { model, run, growing, shadows, choice, onChoice, marked, onMark } = props;
   const [place, size] = useSize<HTMLDivElement>();
@@ -269,6 +302,7 @@ export function PathCard(props: PathProps) {
   const result: PathResult = growing ? { ...kNoResult, branches: growing.filter(Boolean) } : run?.result ?? kNoResult;
   const axes = useAxes(result);
   const stiffness = useStiffness(result);
+  const frequencies = useFrequencies(result, size);
   const [playing, toggle] = usePlay(props);
   const input = useMemo<PathInput>(
     () => ({ result, x: axes.x, y: axes.y, shadows, monitors: run?.request.model.monitors ?? model.monitors, units: model.units,
@@ -300,21 +334,21 @@ export function PathCard(props: PathProps) {
         {axes.all.length > 3 ? <AxisChoice label="y" value={axes.y} from={axes.all} onChange={axes.setY} /> : null}
         <AxisChoice label="x" value={axes.x} from={axes.all} onChange={axes.setX} />
         <StiffnessButton of={stiffness} />
+        {frequencies.there
+          ? <button type="button" aria-pressed={frequencies.shown} onClick={frequencies.toggle}>Frequencies</button> : null}
         <button type="button" aria-pressed={playing} onClick={toggle}>{playing ? "Stop" : "Play"}</button>
-        <Menu label="Export" items={[
-          { text: twin ? "Show the chart" : "Show as table", act: () => setTwin(!twin) },
-          { text: "SVG", act: () => saveSvg(`${name}-path.svg`, take()) },
-          { text: "PNG", act: () => void savePng(`${name}-path.png`, take()) },
-          { text: "CSV", act: () => saveText(`${name}-path.csv`, tableCsv(pathTable(input)), "text/csv") },
-        ]} />
+        <PathMenu name={name} input={input} take={take} twin={twin} toggle={() => setTwin(!twin)} />
       </>
     ) : null}>
       {warned && run ? <NearlyUnstable run={run} marked={marked} onMark={onMark} /> : null}
       {props.note}
-      <div class="fill" ref={place}>
-        {twin ? <LongTable table={pathTable(input)} caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} />
-          : size && size.height > 20
-            ? <Chart input={input} size={size} point={point} onPoint={choose} onStep={step} onPlay={toggle} onMark={onMark} /> : null}
+      <div class="fill beside" ref={place}>
+        {twin ? <LongTable table={pathTable(input)} caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} /> : null}
+        {!twin && frequencies.path && frequencies.path.height > 20
+          ? <Chart input={input} size={frequencies.path} point={point} onPoint={choose} onStep={step} onPlay={toggle} onMark={onMark} />
+          : null}
+        {!twin && frequencies.chart && frequencies.chart.height > 20
+          ? <PathFrequencies input={{ result, load: station?.load }} size={frequencies.chart} onPoint={choose} /> : null}
       </div>
     </Card>
   );

@@ -2,11 +2,12 @@
 // share it.
 
 import { useMemo, useState } from "preact/hooks";
-import type { Branch, RequestDocument, State } from "../api/documents";
-import { branchesOf, formatNumber, softestPoint, type PathShadow } from "../figures";
+import type { Branch, Mode, RequestDocument, State, Vibration } from "../api/documents";
+import { branchesOf, formatNumber, softestPoint, type ChosenMotion, type PathShadow } from "../figures";
 import type { Choice } from "../model/gallery";
 import { isUnstable, lengthOf, stationFor, type Run } from "../model/run";
 import { DrawingCard, type Pointed } from "./drawing_card";
+import { VibrationCard } from "./frequency_card";
 import { BucklingCard, PathCard, type Marked } from "./path_card";
 import { SectionsCard } from "./sections_card";
 import { kindOf, TrustCard } from "./trust_card";
@@ -69,21 +70,42 @@ function softestChoice(run: Run): Choice | null {
   return point && length > 0 ? { kind: "along", branch: 0, share: point.arc / length } : null;
 }
 
+interface ShownVibration {
+  all: readonly Vibration[];
+  /** The motion that is shown: the chosen one, as far as the result has it. */
+  chosen: ChosenMotion;
+  mode: Mode | null;
+  /** The equilibrium that vibrates. */
+  state: State | null;
+}
+
+/** What is shown of a vibration analysis; null for a result of another one. */
+function vibrationOf(run: Run | null, wanted: ChosenMotion): ShownVibration | null {
+  const { vibrations: all, static: table, states } = run?.result ?? {};
+  if (!all || all.length === 0) return null;
+  const row = Math.min(all.length - 1, wanted.row);
+  const motion = Math.min((all[row]?.modes.length ?? 1) - 1, wanted.motion);
+  const at = table?.state[table.load_factor.indexOf(all[row]?.load_factor ?? Number.NaN)];
+  return { all, chosen: { row, motion }, mode: all[row]?.modes[motion] ?? null, state: at == null ? null : states?.[at] ?? null };
+}
+
 const kNothing: readonly State[] = [];
 
 export function ResultViews({ request, run, growing, shadows, choice, onChoice, onFollow, stale = false }: ResultProps) {
   const [marked, setMarked] = useState<Marked | null>(null);
   const [modeNumber, setModeNumber] = useState(0);
+  const [motion, setMotion] = useState<ChosenMotion>({ row: 0, motion: 0 });
   const [cursor, setCursor] = useState<Pointed | null>(null);
   const station = run?.stations[run ? stationFor(run, choice) : -1];
   const point = typeof marked === "number" ? run?.result.critical_points[marked] : undefined;
   const softest = marked === "softest" ? run?.result.summary.softest?.mode : null;
   const pointState = point?.state == null ? undefined : run?.result.states[point.state];
   const buckling = run?.result.buckling;
-  const state = pointState ?? station?.state ?? null;
+  const vibration = vibrationOf(run, motion);
+  const state = pointState ?? vibration?.state ?? station?.state ?? null;
   const room = useMemo(() => run?.stations.map((one) => one.state) ?? kNothing, [run]);
   const first = request.analysis.type === "critical" ? run?.result.critical_points[0]?.mode : null;
-  const mode = point?.mode ?? softest ?? first ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
+  const mode = point?.mode ?? softest ?? first ?? vibration?.mode ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
   const model = run?.request.model ?? request.model;
   const close = (): void => setMarked(null);
   const mark = (to: Marked | null): void => {
@@ -99,9 +121,10 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
   return (
     <>
       <DrawingCard class={buckling ? "alone" : ""} model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
-                   unstable={run !== null && station !== undefined && !pointState && isUnstable(run, station)}
+                   unstable={run !== null && station !== undefined && !pointState && !vibration && isUnstable(run, station)}
                    loadFactor={buckling?.load_factors[modeNumber] ?? null} />
       {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} />
+        : run && vibration ? <VibrationCard run={run} vibrations={vibration.all} chosen={vibration.chosen} onChosen={setMotion} />
         : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
                     note={note} marked={marked} onMark={mark} />}
       {buckling ? null : <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />}

@@ -3,11 +3,11 @@
 
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
-import type { CriticalPoint, Model, RequestDocument, Result } from "../api/documents";
+import type { CriticalPoint, Model, RequestDocument, Result, Vibration } from "../api/documents";
 import { hasKey } from "../api/client";
 import { withShortNumbers } from "../app/words";
 import { curlCommand, fileName, pythonProgram, saveJson } from "../export/files";
-import { formatNumber, formatWithUnit, unitOf, type Quantity } from "../figures";
+import { formatNumber, formatWithUnit, motionsOf, unitOf, type Quantity } from "../figures";
 import type { Run } from "../model/run";
 import { Card } from "./card";
 
@@ -15,7 +15,7 @@ const kNothing = 1e-12;  // smaller displacements are rounding
 const kSaidElsewhere: ReadonlySet<string> = new Set(["nearly_unstable", "unstable"]);  // above the path, and as the headline
 const kKinds: Record<string, string> = {
   bifurcation: "bifurcation", limit_max: "limit point", limit_min: "limit point (least load)",
-  broken_bifurcation: "broken bifurcation",
+  broken_bifurcation: "broken bifurcation", flutter: "flutter",
 };
 
 export function kindOf(type: string): string {
@@ -43,6 +43,20 @@ function warningOf(result: Result, code: Result["warnings"][number]["code"]): st
   return result.warnings.find((one) => one.code === code)?.detail;
 }
 
+/** The lowest frequency of the first load factor of a vibration analysis, or that the structure is unstable there. */
+function LowestFrequency({ vibration, earlier }: { vibration: Vibration; earlier: ComponentChildren }) {
+  const motions = motionsOf(vibration.frequencies);
+  const kind = motions.find((one) => one.kind !== "vibrates")?.kind;
+  return (
+    <>
+      <p class="headline"><strong>{kind === undefined ? formatNumber(motions[0]?.omega ?? Number.NaN, 5) : ""}</strong>
+        {earlier ?? (kind === undefined ? null : <Badge good={false}>{`unstable: ${kind}`}</Badge>)}</p>
+      <p class="hint">{kind === undefined ? "lowest circular frequency," : "small motions grow"} at load factor {
+        formatNumber(vibration.load_factor, 5)}</p>
+    </>
+  );
+}
+
 /** What is said where no critical load was found: a failure, unstable rows of a static analysis, or that there is none. */
 function WithoutLoad({ result, earlier }: { result: Result; earlier: ComponentChildren }) {
   const { failure } = result;
@@ -67,6 +81,8 @@ function Headline({ result, stale }: { result: Result; stale: boolean }) {
   const { critical_load_factor: load, critical_type: type } = result.summary;
   const point = firstPoint(result);
   const earlier = stale ? <Badge good={false}>of an earlier model</Badge> : null;
+  const vibration = result.failure ? undefined : result.vibrations?.[0];
+  if (vibration) return <LowestFrequency vibration={vibration} earlier={earlier} />;
   if (load === null) return <WithoutLoad result={result} earlier={earlier} />;
   const confirmed = point?.confirmed ?? result.summary.error_estimate !== null;
   const fixed = result.discretization.accuracy.requested === null;
@@ -188,7 +204,7 @@ export function TrustCard({ run, request, stale = false, class: name = "" }: Tru
   const { result } = run;
   const file = fileName(request.model.title ?? "", "");
   return (
-    <Card title="First loss of stability" class={`trust-card ${name}`}>
+    <Card title={result.vibrations ? "Vibrations" : "First loss of stability"} class={`trust-card ${name}`}>
       <Headline result={result} stale={stale} />
       <dl class="rows">
         {rowsOf(run).map(([term, value]) => <div key={term}><dt>{term}</dt><dd>{value}</dd></div>)}

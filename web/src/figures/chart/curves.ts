@@ -98,6 +98,12 @@ function stabilityOf(vertices: readonly Vertex[]): Stability[] {
   return stable;
 }
 
+/** Arc length at which flutter begins on a branch; infinite where it does not. Negative eigenvalues do not show flutter. */
+export function flutterArc(result: Pick<PathResult, "critical_points">, branch: number): number {
+  const arcs = result.critical_points.filter((point) => point.branch === branch && point.type === "flutter");
+  return Math.min(...arcs.map((point) => point.arc_length));
+}
+
 /** The curve of a branch; null when it has not both quantities. */
 export function curveOf(result: PathResult, branch: Branch, index: number, x: PathQuantity, y: PathQuantity):
     PathCurve | null {
@@ -114,7 +120,10 @@ export function curveOf(result: PathResult, branch: Branch, index: number, x: Pa
     if (point.branch !== index || result.branches.length === 0) continue;
     insertCritical(vertices, point, criticalValue(point, x), criticalValue(point, y));
   }
-  return { branch: index, vertices, stable: stabilityOf(vertices) };
+  const flutter = result.branches.length === 0 ? Infinity : flutterArc(result, index);
+  const begin = flutter - 1e-9 * at(branch.arc_length, count - 1);
+  const stable = stabilityOf(vertices).map((one, i) => ((vertices[i]?.arc ?? 0) >= begin ? false : one));
+  return { branch: index, vertices, stable };
 }
 
 /** A critical point on the chart. */

@@ -16,9 +16,12 @@ export interface SoftestPoint {
   arc: number;
 }
 
-/** The first critical point of the primary path at which its stiffness is zero. A broken bifurcation lies beside the path. */
+/**
+ * The first critical point of the primary path at which its stiffness is zero. A broken bifurcation lies beside the path, and
+ * flutter begins at a stiffness that is not zero.
+ */
 function firstLoss(result: PathResult): CriticalPoint | undefined {
-  return result.critical_points.filter((point) => point.branch === 0 && point.type !== "broken_bifurcation")
+  return result.critical_points.filter((point) => point.branch === 0 && !["broken_bifurcation", "flutter"].includes(point.type))
     .sort((a, b) => a.arc_length - b.arc_length)[0];
 }
 

@@ -40,6 +40,7 @@ export function columnLabel(axis: SweepAxis): string {
     return `${words(parts[parts.length - 1] ?? "")} at critical point ${Number(parts[1]) + 1}`;
   }
   if (parts[0] === "buckling" && parts[1] === "load_factors") return `buckling load ${Number(parts[2]) + 1}`;
+  if (parts[0] === "vibrations" && parts[3] === "omega_squared") return `omega squared ${Number(parts[4]) + 1}`;
   return parts.filter((part) => !/^\d+$/.test(part)).slice(-2).map(words).join(", ");
 }
 

@@ -6,7 +6,7 @@ import { last, type Point } from "../geometry";
 import { placeLabel, type Occupancy } from "../labels";
 import { formatWithUnit, unitOf, type Quantity } from "../numbers";
 import { group, pathData, shape, type Pixel, type Shape } from "../shape";
-import { drawnLoadFactor, placeOf, placeOn, toPixel, type Scene, type View } from "./scene";
+import { drawnLoadFactor, placeOf, placeOn, toPixel, type Place, type Scene, type View } from "./scene";
 
 type Load = components["schemas"]["Load"];
 type Distributed = Extract<Load, { type: "distributed" }>;
@@ -51,13 +51,21 @@ function senseOf(factor: number): number {
   return factor === 0 ? 1 : factor;
 }
 
+/** A force turned as the member's axis has turned at a place since it was undeformed. */
+function turned([fx, fy]: readonly [number, number], { normal, tangent }: Place): readonly [number, number] {
+  const still = { x: normal.y, y: -normal.x };
+  const cosine = still.x * tangent.x + still.y * tangent.y;
+  const sine = still.x * tangent.y - still.y * tangent.x;
+  return [cosine * fx - sine * fy, sine * fx + cosine * fy];
+}
+
 function pointArrow(load: PointLoad, scene: Scene, view: View, largest: number, arrows: Arrows): void {
   const place = placeOf(scene, load.at);
   if (!place) return;
   const factor = factorOf(load, scene);
   const tip = toPixel(view, place.moved);
   const unit = (quantity: Quantity) => unitOf(scene.input.model.units, quantity);
-  const [fx, fy] = load.force;
+  const [fx, fy] = load.follows ? turned(load.force, place) : load.force;
   const size = Math.hypot(fx, fy);
   if (size > 0) {
     const sign = Math.sign(senseOf(factor));
