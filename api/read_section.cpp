@@ -171,14 +171,15 @@ void set_stiffness(Object& in, double E, double G, const Shape& shape, Section& 
     out.GA = GA;
   }
   read_mass(in, &shape.geometry, out);
-  const double mass = out.mass.value_or(0.0).largest();
+  const double mass = std::max(out.mass.value_or(0.0).largest(), out.rotary_inertia.value_or(0.0).largest());
   const auto is_usable = [](double v) { return v > 0.0 && v <= kMaxMagnitude; };
   const auto is_nan = [](double v) { return v != v; };
   if (is_nan(EA) || is_nan(EI) || is_nan(GA) || is_nan(mass)) {
     in.value().document_report().mark_unreadable(in.value().pointer());
   } else if (!is_usable(EA) || !is_usable(EI) || !(G == 0.0 || is_usable(GA)) || !(mass <= kMaxMagnitude)) {
-    in.value().report("out_of_range",
-                      "the products E A, E I, G shear_area and density A must be positive and finite");
+    in.value().report(
+        "out_of_range",
+        "the products E A, E I, G shear_area, density A and density I must be positive and finite");
   }
 }
 

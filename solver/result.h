@@ -340,7 +340,7 @@ struct Result {
   std::optional<StaticTable> static_table;
   std::vector<double> not_reached;  ///< requested load factors
   std::optional<BucklingResult> buckling;
-  std::optional<std::vector<Vibration>> vibrations = {};  ///< of the analysis `vibration`
+  std::optional<std::vector<Vibration>> vibrations = {};  ///< the analysis `vibration` has them
   std::optional<std::vector<MemberExtremes>> extremes;    ///< if requested; empty: no state was reached
   std::optional<WorstOffset> worst_imperfection = {};     ///< if the model has a worst imperfection
   std::vector<Warning> warnings;

@@ -122,7 +122,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
-    softest_.lose(event.point);
+    if (!flutters) softest_.lose(event.point);
     if (event.cause == CriticalCause::smooth && !flutters) lost_ = event.point.arc_length;
     result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
   }

@@ -14,9 +14,8 @@
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/monitor_watch.h"
 #include "solver/analysis/recorder.h"
-#include "solver/discrete/mass_matrix.h"
+#include "solver/analysis/vibration_rule.h"
 #include "solver/events/branch.h"
-#include "solver/events/flutter.h"
 #include "solver/events/touching.h"
 #include "solver/hooks.h"
 #include "solver/numeric/cancelled.h"
@@ -222,15 +221,6 @@ void warn_of_still_monitor(const Analysis& analysis, const MonitorWatch& watch, 
                             "\" does not move on any path that was followed: its stop rule could not act"});
 }
 
-/// Warns of loads without a potential whose vibrations could not be tested.
-void warn_of_untested_flutter(const Model& model, const Structure& structure, Result& result) {
-  if (!structure.unsymmetric() || has_mass(model)) return;
-  result.warnings.push_back({"flutter_not_tested",
-                             "some loads follow the structure and have no potential: it may begin to flutter "
-                             "while it is stable by every static test. Only divergence was tested, because "
-                             "the model has no masses"});
-}
-
 /// Sets the failure of a path that finer meshes do not confirm.
 void fail_unconfirmed(const Analysis& analysis, Result& result) {
   const bool some = std::any_of(result.critical_points.begin(), result.critical_points.end(),
@@ -355,18 +345,6 @@ Complete completer(const Model& model, const Analysis& analysis, const PathNorm&
       point.koiter =
           koiter_coefficients(model, structure, at, analysis.output.points_per_member, factorisations);
     if (visit) visit(structure, at, point, factorisations);
-  };
-}
-
-/// Rule that follows the natural motions of loads without a potential; empty where every load has one.
-/// @param flutter set where the model has masses; has to live as long as the rule
-std::function<StepVibrations(const PathPoint&, const PathPoint&)> vibration_rule(
-    const Model& model, const Structure& structure, PointSolver& solver, double tolerance,
-    std::optional<FlutterSearch>& flutter) {
-  if (!structure.unsymmetric()) return {};
-  if (has_mass(model)) flutter.emplace(structure, model);
-  return [&, tolerance](const PathPoint& from, const PathPoint& to) {
-    return flutter ? flutter->on_step(solver, from, to, tolerance) : divergence_on_step(solver, from, to);
   };
 }
 

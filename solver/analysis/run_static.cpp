@@ -11,6 +11,7 @@
 #include "solver/analysis/frequency_probe.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/softest_point.h"
+#include "solver/analysis/vibration_rule.h"
 #include "solver/events/critical_mode.h"
 #include "solver/events/root_finder.h"
 #include "solver/events/touching.h"
@@ -178,12 +179,15 @@ void fail_at(const Model& model, const Analysis& analysis, const Structure& stru
   const CriticalPoint point = unconfirmed_point(structure, model, event, motion);
   result.critical_points.push_back(point);
   const bool is_turn = is_limit(event.type);
+  const bool flutters = event.type == CriticalType::flutter;
   const std::string what = is_turn         ? "the path has a limit point"
+                           : flutters      ? "two natural frequencies meet and vibrations grow (flutter)"
                            : !point.member ? "the structure becomes unstable (bifurcation)"
                                            : "member \"" + *point.member + "\" buckles (bifurcation)";
   fail(result, is_turn ? "beyond_limit_point" : "beyond_critical_point",
-       what + " at load factor " + number(point.load_factor) +
-           ", before the asked ones; the motion that loses its stiffness there " + motion_text(mode, model));
+       what + " at load factor " + number(point.load_factor) + ", before the asked ones; the motion " +
+           (flutters ? "with that frequency " : "that loses its stiffness there ") +
+           motion_text(mode, model));
 }
 
 /// Trace rules of a static path up to a load factor bound.
@@ -226,6 +230,7 @@ class StaticObserver final : public PathObserver {
         solver_(solver),
         softest_(softest),
         states_(states),
+        result_(result),
         neutral_(structure, model, result.neutral_motion) {}
 
   void on_point(const PathPoint& point) override {
@@ -235,6 +240,9 @@ class StaticObserver final : public PathObserver {
   void on_unpinned(const PathPoint& point) override { on_point(point); }
   void on_critical(const CriticalEvent& event) override {
     if (event.negative_before == 0 && event.negative_after > 0) softest_.lose(event.point);
+    if (event.type != CriticalType::flutter || analysis_.unstable == Unstable::refuse) return;
+    result_.warnings.push_back({"unstable", "vibrations grow (flutter) from load factor " +
+                                                number(event.point.lambda / structure_.scales.load) + " on"});
   }
   void on_step(const PathPoint& from, const PathPoint& to) override {
     softest_.add_step(from, to);
@@ -254,6 +262,7 @@ class StaticObserver final : public PathObserver {
   PointSolver& solver_;
   SoftestPoint& softest_;
   StaticRows& states_;
+  Result& result_;
   NeutralMotionLog neutral_;
 };
 
@@ -279,7 +288,9 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
     if (analysis.load_factors[i] == 0.0 && states.lacks(i))
       states.set(i, start.point->y, start.point->negative);
   if (last == 0.0) return true;
-  const TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
+  TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
+  std::optional<FlutterSearch> flutter;
+  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
   StaticObserver observer(model, analysis, structure, solver, softest, states, result);
   const TraceOutcome outcome = trace(follower, start.point, rules, analysis.step, {&observer}, hooks.stop);
   add_statistics(follower.statistics(), result);
@@ -327,7 +338,13 @@ void report_stability(const Analysis& analysis, Result& result) {
   if (analysis.geometry == Geometry::linear) {
     result.summary.message += "; displacements are taken as small, and nothing is said about stability";
   } else if (unstable == 0) {
-    if (!result.failure) result.summary.message += ", every one stable";
+    const bool is_doubted =
+        std::any_of(result.warnings.begin(), result.warnings.end(), [](const Warning& warning) {
+          return warning.code == "unstable" || warning.code == "flutter_not_tested";
+        });
+    if (!result.failure)
+      result.summary.message +=
+          is_doubted ? ", every one stable by the static test alone" : ", every one stable";
   } else {
     const std::string text = std::to_string(unstable) + " of " + std::to_string(table.load_factor.size()) +
                              " load factors have unstable equilibria, the first of them " + number(*first);
@@ -352,6 +369,7 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
     if (states.lacks(i))
       fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");
   states.move_to(result);
+  warn_of_untested_flutter(model, structure, result);
   report_stability(analysis, result);
 }
 

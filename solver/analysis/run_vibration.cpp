@@ -170,10 +170,11 @@ void run_vibration(const Model& model, const Analysis& analysis, const Structure
   result = std::move(now.result);
   result.diagnostics.skipped = skipped;
   result.diagnostics.factorizations = factorizations;
-  result.summary.message = "small free vibrations about the equilibrium at " +
-                           std::to_string(analysis.load_factors.size()) + " load factors";
   report_mesh(*now.structure, level, result);
   report_rows(model, analysis, now, errors, result);
+  result.summary.message = "small free vibrations about the equilibrium at " +
+                           std::to_string(result.vibrations->size()) + " of " +
+                           std::to_string(analysis.load_factors.size()) + " load factors";
   if (!within && !analysis.discretization.fixed_mesh && !result.failure)
     fail(result, "not_confirmed",
          "finer meshes do not confirm all frequencies within the accuracy asked for");

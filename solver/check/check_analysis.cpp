@@ -236,6 +236,24 @@ void check_frequencies(const Place& root, const Model& model, const Analysis& an
   }
 }
 
+/// Reports following forces where buckling is linearised, whose loads then need not be real.
+void check_linearised(const Place& root, const Model& model, const Analysis& analysis) {
+  const bool follows = std::any_of(model.loads.begin(), model.loads.end(), [](const Load& load) {
+    const auto* point = std::get_if<PointLoad>(&load);
+    return point != nullptr && point->follows;
+  });
+  if (!follows) return;
+  if (analysis.type == AnalysisType::buckling)
+    (root / "analysis" / "type")
+        .report("unsupported",
+                "linearised buckling needs loads that keep their direction; type critical takes "
+                "forces that follow, and finds flutter where there are masses");
+  for (std::size_t i = 0; i < model.imperfections.size(); ++i)
+    if (std::holds_alternative<ModeImperfection>(model.imperfections[i]))
+      (root / "model" / "imperfections" / i)
+          .report("not_supported", "buckling modes need loads that keep their direction");
+}
+
 }  // namespace
 
 void check_analysis(const Place& root, const Model& model, const Analysis& analysis, const Names& names) {
@@ -261,6 +279,7 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   check_output(place / "output", model, analysis.output);
   require_count(place / "sensitivities", analysis.sensitivities.size(), kMaxSensitivities);
   check_frequencies(root, model, analysis);
+  check_linearised(root, model, analysis);
   if (analysis.type == AnalysisType::static_ && analysis.output.states == StateOutput::at_load_factors) {
     check_static_states(place / "output" / "states" / "at_load_factors", analysis);
   }

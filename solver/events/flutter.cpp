@@ -212,10 +212,14 @@ CriticalEvent FlutterSearch::event_at(const LocatedRoot& root, const std::option
   CriticalEvent event;
   event.type = CriticalType::flutter;
   event.point = root.root;
+  // the zero is nearer than the bracket is wide, and other meshes have it a little beside
+  const double share = root.value_before / (root.value_before - root.value_after);
+  event.point.y = root.before.y + share * (root.after.y - root.before.y);
+  event.point.lambda = root.before.lambda + share * (root.after.lambda - root.before.lambda);
   event.multiplicity = 2;
   event.bracket_loads[0] = root.before.lambda;
   event.bracket_loads[1] = root.after.lambda;
-  const Sample at = sample(root.root);
+  const Sample at = sample(event.point);
   const Squares& squares = at.motions.squares;
   const Pair pair = nearest(squares, mean.value_or(squares.front().real()));
   event.null = at.motions.motions.col(static_cast<Eigen::Index>(pair.first));

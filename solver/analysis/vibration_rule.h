@@ -1,0 +1,23 @@
+#pragma once
+/// @file
+/// What analyses along a path do about loads that have no potential.
+
+#include <functional>
+#include <optional>
+
+#include "solver/events/flutter.h"
+#include "solver/result.h"
+
+namespace snapthrough {
+
+/// @brief Rule of a trace (TraceRules::vibrations) that follows the natural motions of a structure.
+/// @param flutter set where the model has masses; has to live as long as the rule
+/// @return empty where every load has a potential
+[[nodiscard]] std::function<StepVibrations(const PathPoint&, const PathPoint&)> vibration_rule(
+    const Model& model, const Structure& structure, PointSolver& solver, double tolerance,
+    std::optional<FlutterSearch>& flutter);
+
+/// Warns of loads without a potential whose vibrations could not be tested.
+void warn_of_untested_flutter(const Model& model, const Structure& structure, Result& result);
+
+}  // namespace snapthrough
