@@ -113,7 +113,7 @@ void check_object(const Schema& schema, const std::string& where) {
   std::vector<std::string> names;
   const Schema required = schema.value("required", Schema::array());
   for_each_field<T>([&](const auto& one) {
-    if constexpr (!one.is(kInternal) && !one.is(kKey)) {
+    if constexpr (!FieldOf<decltype(one)>::is(kInternal) && !FieldOf<decltype(one)>::is(kKey)) {
       using Value = ValueOf<T, std::remove_cvref_t<decltype(one)>>;
       const std::string name(one.name);
       const std::string here = where + "." + name;
