@@ -212,6 +212,7 @@ std::string static_csv(const Json& result) {
   const Json& table = member(result, "static");
   Rows rows(fields);
   std::vector<const Json*> series;
+  series.reserve(fields.size());
   for (const std::string& field : fields) series.push_back(&member(table, field));
   for (const auto& [field, id] : columns_by_id<StaticTable>({&table, 1}, rows)) {
     series.push_back(&member(member(table, field), id));

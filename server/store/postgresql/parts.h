@@ -44,6 +44,7 @@ class Clock {
 /// Rows as keys, see read_used_key().
 [[nodiscard]] inline std::vector<UsedKey> used_keys(const Rows& rows) {
   std::vector<UsedKey> keys;
+  keys.reserve(static_cast<std::size_t>(rows.count()));
   for (int row = 0; row < rows.count(); ++row) {
     keys.push_back(read_used_key(rows[row]));
   }
