@@ -50,11 +50,11 @@ template <class T, class Wanted = All>
 [[nodiscard]] nlohmann::json object_json(const T& object, const Wanted& wanted = {}) {
   nlohmann::json json = nlohmann::json::object();
   for_each_field<T>([&](const auto& one) {
-    if constexpr (!one.is(kInternal) && !one.is(kKey)) {
+    if constexpr (!FieldOf<decltype(one)>::is(kInternal) && !FieldOf<decltype(one)>::is(kKey)) {
       if (!wanted(one.name)) return;
       const auto& value = std::invoke(one.get, object);
       if (is_left_out(one, value)) return;
-      if constexpr (one.is(kCount)) {
+      if constexpr (FieldOf<decltype(one)>::is(kCount)) {
         json.emplace(one.name, value < 0 ? nlohmann::json(nullptr) : nlohmann::json(value));
       } else {
         json.emplace(one.name, field_json(value));
@@ -78,7 +78,8 @@ template <class T>
     nlohmann::json json = nlohmann::json::object();
     for (const T& one : list) {
       for_each_field<T>([&](const auto& field) {
-        if constexpr (field.is(kKey)) json[std::invoke(field.get, one)] = object_json(one);
+        if constexpr (FieldOf<decltype(field)>::is(kKey))
+          json[std::invoke(field.get, one)] = object_json(one);
       });
     }
     return json;

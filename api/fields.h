@@ -35,6 +35,11 @@ struct Field {
   [[nodiscard]] static constexpr bool is(unsigned trait) { return (traits & trait) == trait; }
 };
 
+/// Type of a field that a visitor takes by reference. Its traits are constants:
+/// FieldOf<decltype(one)>::is(kKey); clang 16 takes one.is(kKey) for no constant.
+template <class Reference>
+using FieldOf = std::remove_cvref_t<Reference>;
+
 template <unsigned traits = kPlain, class Get>
 [[nodiscard]] constexpr Field<traits, Get> field(std::string_view name, Get get) {
   return {name, get};

@@ -16,12 +16,13 @@
 namespace snapthrough::api {
 
 std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer) {
+  if (!pointer.empty() && pointer.front() != '/') {
+    return std::nullopt;
+  }
   std::vector<std::string> tokens;
   for (std::size_t i = 0; i < pointer.size(); ++i) {
     if (pointer[i] == '/') {
       tokens.emplace_back();
-    } else if (tokens.empty()) {
-      return std::nullopt;
     } else if (pointer[i] != '~') {
       tokens.back() += pointer[i];
     } else if (++i < pointer.size() && (pointer[i] == '0' || pointer[i] == '1')) {

@@ -203,6 +203,7 @@ inline constexpr auto kFields<BucklingResult> =
                field("error_estimates", &BucklingResult::error_estimates), internal(&BucklingResult::modes),
                field("modes", [](const BucklingResult& result) {
                  std::vector<BucklingMode> modes;
+                 modes.reserve(result.modes.size());
                  for (const Mode& mode : result.modes)
                    modes.push_back({mode.members, mode.effective_lengths});
                  return modes;

@@ -107,9 +107,10 @@ void for_each_column(const Visit& visit) {
   constexpr bool are_lists =
       std::is_same_v<T, Branch> || std::is_same_v<T, StaticTable> || std::is_same_v<T, MemberState>;
   for_each_field<T>([&](const auto& one) {
-    using Value = ValueOf<T, std::remove_cvref_t<decltype(one)>>;
-    if constexpr (!one.is(kInternal) && !one.is(kKey) && !one.is(kNoColumn) &&
-                  are_lists == kIsVector<Value> && kIsScalar<typename InRow<Value>::Type>) {
+    using Value = ValueOf<T, FieldOf<decltype(one)>>;
+    if constexpr (!FieldOf<decltype(one)>::is(kInternal) && !FieldOf<decltype(one)>::is(kKey) &&
+                  !FieldOf<decltype(one)>::is(kNoColumn) && are_lists == kIsVector<Value> &&
+                  kIsScalar<typename InRow<Value>::Type>) {
       visit(one);
     }
   });
@@ -119,8 +120,8 @@ void for_each_column(const Visit& visit) {
 template <class T, class Visit>
 void for_each_column_by_id(const Visit& visit) {
   for_each_field<T>([&](const auto& one) {
-    if constexpr (!one.is(kInternal) && !one.is(kNoColumn) &&
-                  kIsById<ValueOf<T, std::remove_cvref_t<decltype(one)>>>)
+    if constexpr (!FieldOf<decltype(one)>::is(kInternal) && !FieldOf<decltype(one)>::is(kNoColumn) &&
+                  kIsById<ValueOf<T, FieldOf<decltype(one)>>>)
       visit(one);
   });
 }
@@ -211,6 +212,7 @@ std::string static_csv(const Json& result) {
   const Json& table = member(result, "static");
   Rows rows(fields);
   std::vector<const Json*> series;
+  series.reserve(fields.size());
   for (const std::string& field : fields) series.push_back(&member(table, field));
   for (const auto& [field, id] : columns_by_id<StaticTable>({&table, 1}, rows)) {
     series.push_back(&member(member(table, field), id));

@@ -19,7 +19,7 @@ template <class T>
 std::optional<std::string> write(const T& object) {
   Json json = Json::object();
   for_each_field<T>([&](const auto& one) {
-    if constexpr (one.is(kStored)) {
+    if constexpr (FieldOf<decltype(one)>::is(kStored)) {
       if (!is_left_out(one, object.*one.get)) json.emplace(one.name, field_json(object.*one.get));
     }
   });
@@ -71,7 +71,7 @@ void read_stored(std::string_view text, T& object) try {
   const Json json = Json::parse(text);
   if (!json.is_object()) throw std::invalid_argument("they are no object");
   for_each_field<T>([&](const auto& one) {
-    if constexpr (one.is(kStored)) {
+    if constexpr (FieldOf<decltype(one)>::is(kStored)) {
       if (json.contains(one.name)) read(json.at(std::string(one.name)), object.*one.get);
     }
   });

@@ -8,8 +8,13 @@ A command is a line of a fenced block that begins with snapthrough check, solve,
 it, build/release/ too). It runs when it names a file of examples/, or one that an earlier command of its document has written; the
 commands of a document share a folder. A block that holds an "analysis" and is followed by a block that holds a "summary" is a request
 with its answer: each value of that summary is the program's, numbers to 1e-8.
+
+A document with a block "json NAME" is a tutorial and is followed: such a block is written to the file NAME, sh and python blocks
+run in their order beside a service, whose port replaces 8080, and a text block after one is what it prints, numbers to 1e-8.
 """
+import contextlib
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -18,7 +23,9 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENTS = ("README.md", "docs/*.md", "docs/gallery/*.md", "docs/howto/*.md")
-FENCE = re.compile(r"^```\w*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^```\w*(?: \S+)?\n(.*?)^```", re.MULTILINE | re.DOTALL)
+KIND_FENCE = re.compile(r"^```(\w*) ?(\S*)\n(.*?)^```", re.MULTILINE | re.DOTALL)  # kind, name, text
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 COMMAND = re.compile(r"^(?:\$ )?(?:build/release/)?snapthrough (?:check|solve|sweep|plot|convert|merge) ")
 SAME_NUMBER = 1e-8
 MINIMUM_RUN = 20  # so that a changed style of writing cannot empty the check
@@ -80,6 +87,51 @@ def wrong_answers(program, text):
                 yield f"summary.{field} is {ours.get(field)}, not {printed}"
 
 
+@contextlib.contextmanager
+def service(program, folder):
+    """A service with an empty store; gives its port."""
+    command = [program, "serve", "--listen", "127.0.0.1:0", "--store", folder / "store.db", "--no-web"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            lines = (json.loads(line) for line in process.stderr)
+            yield next(line["port"] for line in lines if line["event"] == "listening")
+        finally:
+            process.terminate()
+            process.stderr.read()
+
+
+def same_text(ours, printed):
+    """Whether the words are the same, and numbers nearly."""
+    numbers = zip(map(float, NUMBER.findall(ours)), map(float, NUMBER.findall(printed)))
+    return (NUMBER.sub("#", ours).split() == NUMBER.sub("#", printed).split()
+            and all(abs(a - b) <= SAME_NUMBER * max(1.0, abs(b)) for a, b in numbers))
+
+
+def follow(program, text, folder):
+    """(blocks run, mistakes) of a tutorial; none of another document."""
+    blocks = KIND_FENCE.findall(text)
+    if not any(kind == "json" and name for kind, name, _ in blocks):
+        return 0, []
+    subprocess.run([sys.executable, ROOT / "clients/python/generate.py"], check=True, stdout=subprocess.DEVNULL)
+    environment = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT / "clients/python")}
+    run, wrong, printed = 0, [], ""
+    with service(program, folder) as port:
+        for kind, name, block in blocks:
+            if kind == "json" and name:
+                (folder / name).write_text(block, encoding="utf-8")
+            elif kind in ("sh", "python"):
+                run += 1
+                command = ["bash", "-e", "-o", "pipefail"] if kind == "sh" else [sys.executable, "-"]
+                done = subprocess.run(command, input=block.replace(":8080", f":{port}"), cwd=folder, env=environment,
+                                      capture_output=True, text=True, check=False)
+                printed = done.stdout
+                if done.returncode != 0:
+                    wrong.append(f"block {run}: exit status {done.returncode}: {done.stderr.strip()[-300:]}")
+            elif kind == "text" and not same_text(printed, block):
+                wrong.append(f"block {run} prints {printed!r}, not {block!r}")
+    return run, wrong
+
+
 def self_test():
     text = "```\n$ snapthrough check examples/none.json\nsnapthrough solve a.json   # why\nother\n```\nsnapthrough solve b.json\n"
     assert list(commands(text)) == ["snapthrough check examples/none.json", "snapthrough solve a.json"]
@@ -87,6 +139,8 @@ def self_test():
     text = '```json\n{"analysis": 1}\n```\n```json\n{"summary": {"x": 1.0}}\n```\n'
     assert list(answers(text)) == [({"analysis": 1}, {"x": 1.0})]
     assert same(1.0 + 1e-9, 1.0) and not same(1.1, 1.0) and not same(None, 1.0) and same("a", "a")
+    assert same_text("a  1.0000000001\n", "a 1.0\n") and not same_text("a 1.1", "a 1.0") and not same_text("a 1 2", "a 1")
+    assert KIND_FENCE.findall("```json a.json\n{}\n```\n") == [("json", "a.json", "{}\n")]
     print("check_code_blocks: self-test passed")
 
 
@@ -98,7 +152,9 @@ def main():
         text = path.read_text(encoding="utf-8")
         with tempfile.TemporaryDirectory() as folder:
             more, mistakes = run_commands(sys.argv[1], text, pathlib.Path(folder))
-        run += more
+            blocks, others = follow(sys.argv[1], text, pathlib.Path(folder))
+        run += more + blocks
+        mistakes += others
         wrong += [f"{path.relative_to(ROOT)}: {mistake}" for mistake in mistakes + list(wrong_answers(sys.argv[1], text))]
     if run < MINIMUM_RUN:
         wrong.append(f"only {run} commands were run, {MINIMUM_RUN} were expected")

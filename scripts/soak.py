@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Keeps the service under a mixed load, with retention, callbacks and backups, and checks every answer.
 
-  scripts/soak.py [MINUTES] [--load FRACTION] [--program PATH]     needs a built tree (build/release)
+  scripts/soak.py [MINUTES] [--load FRACTION] [--disk MB] [--program PATH]     needs a built tree (build/release)
 
 At first the clients act as fast as answers come, for ten seconds; then at FRACTION (0.7) of that rate for MINUTES (30).
 One line a minute says what was done and what the service holds. Exit status 1 when an answer was wrong, a response
 5xx (other than 503 overloaded), news did not come, the log has an error, something leaks, or the last backup does not
-answer. A leak: the median of the last tenth of the minutes is more than that of the second tenth by a tenth and a slack
+answer. With --disk, which needs root, the store is on a disk of MB megabytes (a tmpfs), which is filled to its last byte
+for FULL seconds after every tenth minute; requests that are refused meanwhile are sent again. A leak: the median of the last tenth of the minutes is more than that of the second tenth by a tenth and a slack
 (LEAKS); of runs from 20 minutes on.
 """
 import argparse
@@ -30,6 +31,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from lib.soak_actions import Actions, Catalogue  # noqa: E402
 from lib.soak_client import Connection, Findings, Load, probe  # noqa: E402
+from lib.soak_hostile import HostileActions  # noqa: E402
 from lib.soak_webhooks import LONGEST_WAIT, Receiver  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -37,6 +39,8 @@ CLIENTS = 8
 CALIBRATION = 10     # s at full speed
 KEEP_JOBS = 60       # s
 BETWEEN_BACKUPS = 3  # minutes
+BETWEEN_FULL = 10    # minutes
+FULL = 20            # s of a full disk
 SHORTEST_JUDGED = 20  # minutes
 MB = 1 << 20
 # What may not grow, and by how much it may differ beside a tenth.
@@ -62,7 +66,7 @@ class Minute:
     job: tuple          # job p50/p99 ms
     delivered: int      # told
     outstanding: int    # wait
-    overloaded: int     # 503
+    refused: int        # 503
     errors: int
 
     HEAD = ("  min  jobs/s  rows/s  MB  runners MB  fds  thr  WAL MB  store MB    log B"
@@ -72,14 +76,39 @@ class Minute:
         return (f"{self.minute:5d} {self.jobs:7.1f} {self.rows:7.0f} {self.memory:3.0f} {self.runners:11.0f}"
                 f" {self.descriptors:4d} {self.threads:4d} {self.wal:7.1f} {self.store:9.1f} {self.log:8d}"
                 f" {self.livez[0]:8.1f} /{self.livez[1]:7.1f} {self.job[0]:8.1f} /{self.job[1]:7.1f}"
-                f" {self.delivered:8d} {self.outstanding:5d} {self.overloaded:4d} {self.errors:7d}")
+                f" {self.delivered:8d} {self.outstanding:5d} {self.refused:4d} {self.errors:7d}")
+
+
+class SmallDisk:
+    """A folder on a tmpfs of its own, which can be filled."""
+
+    def __init__(self, folder, megabytes):
+        self.folder = folder
+        folder.mkdir()
+        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={megabytes}m", "tmpfs", folder], check=True)
+
+    def fill(self, seconds):
+        """Keeps every byte that becomes free for `seconds`, then gives them back."""
+        filler = self.folder / "filler"
+        until = time.monotonic() + seconds
+        with open(filler, "wb", buffering=0) as file:
+            while time.monotonic() < until:
+                try:
+                    file.write(bytes(MB))
+                except OSError:  # no space is left
+                    time.sleep(0.05)
+        filler.unlink()
+
+    def close(self):
+        subprocess.run(["umount", self.folder], check=True)
+        self.folder.rmdir()
 
 
 class Service:
     """The service as a process on a store."""
 
     def __init__(self, program, folder, store, receiver):
-        self.store = folder / store
+        self.store = folder / "disk" / store
         self.log = folder / (store + ".log")
         self.port = free_port()
         secret = folder / "secret"
@@ -123,9 +152,10 @@ class Service:
         return [pid for file in folder.glob("*/children") for pid in file.read_text().split()]
 
     def errors_logged(self):
-        """Lines of the level error, but those of requests, whose answers the clients judge."""
+        """Lines of the level error, but those of requests, whose answers the clients judge, and of a full disk."""
         lines = [json.loads(line) for line in self.log.read_text().splitlines()]
-        return [line for line in lines if line["level"] == "error" and line["event"] != "request"]
+        return [line for line in lines if line["level"] == "error" and line["event"] not in ("request", "disk")
+                and line.get("detail") != "the disk is full"]
 
 
 def free_port():
@@ -161,18 +191,20 @@ def percentiles(seconds):
 class Soak:
     """One run: the service, its clients and what was observed each minute."""
 
-    def __init__(self, program, folder, findings):
+    def __init__(self, program, folder, disk, findings):
         self.program = program
         self.folder = folder
+        self.disk = disk
         self.findings = findings
         self.receiver = Receiver(findings)
         self.actions = Actions(Catalogue(program), self.receiver)
+        weights = self.actions.weights() | HostileActions(self.actions.catalogue).weights()
         self.service = Service(program, folder, "soak.db", self.receiver)
         self.times = multiprocessing.Queue()
         self.prober = multiprocessing.Process(target=probe, args=(self.service.port, self.times), daemon=True)
         self.prober.start()
         threading.Thread(target=self.receiver.serve_forever, daemon=True).start()
-        self.load = Load(self.service.port, self.actions.weights(), CLIENTS, findings)
+        self.load = Load(self.service.port, weights, CLIENTS, findings)
         self.minutes = []
         self.seen = set()  # metrics that were reported as findings
 
@@ -191,6 +223,8 @@ class Soak:
             self.observe(minute)
             if minute % BETWEEN_BACKUPS == 0:
                 self.backup()
+            if self.disk and minute % BETWEEN_FULL == 0:
+                self.disk.fill(FULL)
 
     def observe(self, minute):
         """Prints the line of a minute."""
@@ -211,7 +245,7 @@ class Soak:
             log=size(self.service.log),
             livez=percentiles(times["livez"]), job=percentiles(times["job"]),
             delivered=self.receiver.account.delivered, outstanding=outstanding,
-            overloaded=self.findings.overloaded, errors=self.findings.count))
+            refused=self.findings.refusals.total(), errors=self.findings.count))
         print(self.minutes[-1].line(), flush=True)
 
     def drain(self):
@@ -240,7 +274,7 @@ class Soak:
                 self.findings.add(f"metrics: {key} {value:g}")
 
     def backup(self):
-        command = [self.program, "backup", "--store", self.service.store, self.folder / "backup.db"]
+        command = [self.program, "backup", "--store", self.service.store, self.folder / "disk" / "backup.db"]
         run = subprocess.run(command, capture_output=True, text=True)
         if run.returncode != 0:
             self.findings.add(f"backup: exit status {run.returncode}: {run.stderr}")
@@ -267,7 +301,7 @@ class Soak:
             self.findings.add(f"the restored backup has another {path}")
         self.service.stop()
         print(f"the restored backup answers; {self.load.done.total()} actions: {dict(self.load.done.most_common())};"
-              f" {self.receiver.account.delivered} ends told; {self.findings.overloaded} times overloaded;"
+              f" {self.receiver.account.delivered} ends told; {dict(self.findings.refusals)} times refused for the moment;"
               f" {self.findings.count} errors")
 
     def close(self):
@@ -310,6 +344,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("minutes", nargs="?", type=int, default=30)
     parser.add_argument("--load", type=float, default=0.7, metavar="FRACTION")
+    parser.add_argument("--disk", type=int, metavar="MB")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/snapthrough")
     arguments = parser.parse_args()
     program = arguments.program.resolve()
@@ -318,13 +353,18 @@ def main():
     folder = pathlib.Path(tempfile.mkdtemp(prefix="soak."))
     findings = Findings()
     soak = None
+    disk = SmallDisk(folder / "disk", arguments.disk) if arguments.disk else (folder / "disk").mkdir()
+    if disk:
+        Connection.repeated += ("store-unavailable",)
     try:
-        soak = Soak(program, folder, findings)
+        soak = Soak(program, folder, disk, findings)
         soak.run(arguments.minutes, arguments.load)
         soak.end()
     finally:
         if soak:
             soak.close()
+        if disk:
+            disk.close()
         if findings.count == 0:
             shutil.rmtree(folder)
         else:

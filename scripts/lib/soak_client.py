@@ -25,15 +25,17 @@ class Answer:
 
 
 class Connection(http.client.HTTPConnection):
-    """A connection that remembers its last request and answer, for findings, and how often it met 503 overloaded."""
+    """A connection that remembers its last request and answer, for findings, and how often it met which 503."""
+
+    repeated = ("overloaded",)  # types of 503 after which a request is sent again
 
     def __init__(self, port):
         super().__init__("127.0.0.1", port, timeout=90)
         self.last = "nothing asked yet"
-        self.overloaded = 0
+        self.refusals = collections.Counter()  # by type
 
     def call(self, method, path, document=None, expect=(200,), **headers):
-        """The answer, its status among `expect`; what is refused with 503 overloaded is asked again.
+        """The answer, its status among `expect`; a request that is refused for the moment is sent again.
 
         A document is sent as JSON, bytes as they are; the keyword If_None_Match is the header If-None-Match.
         """
@@ -45,8 +47,8 @@ class Connection(http.client.HTTPConnection):
         elif method == "GET" and random.random() < 0.3:
             fields["Accept-Encoding"] = "gzip"
         answer = self.ask(method, path, body, fields)
-        while answer.status == 503 and answer.json()["type"].endswith(":overloaded"):
-            self.overloaded += 1
+        while answer.status == 503 and (kind := answer.json()["type"].rsplit(":", 1)[1]) in self.repeated:
+            self.refusals[kind] += 1
             time.sleep(int(answer.headers["Retry-After"]))
             answer = self.ask(method, path, body, fields)
         check(answer.status in expect, f"status {answer.status}, expected one of {expect}")
@@ -91,7 +93,7 @@ class Findings:
 
     def __init__(self):
         self.count = 0
-        self.overloaded = 0
+        self.refusals = collections.Counter()  # by type
         self.lock = threading.Lock()
 
     def add(self, text):
@@ -100,9 +102,9 @@ class Findings:
             if self.count <= self.MOST:
                 print(f"ERROR {time.strftime('%H:%M:%S')} {text}", flush=True)
 
-    def add_overloaded(self, times):
+    def add_refusals(self, refusals):
         with self.lock:
-            self.overloaded += times
+            self.refusals += refusals
 
 
 class Pace:
@@ -159,7 +161,7 @@ class Load:
             action(connection, draw)
         except Exception as problem:  # whatever it is, the answer was not as it should be
             self.findings.add(f"{action.__name__}: {problem!r}\n  {connection.last}")
-        self.findings.add_overloaded(connection.overloaded)
+        self.findings.add_refusals(connection.refusals)
         connection.close()
 
 

@@ -65,6 +65,12 @@ struct IdempotencyKey {
   std::string fingerprint;  ///< SHA-256 of the document that came with the key
 };
 
+/// Idempotency key of a stored job or sweep.
+struct UsedKey {
+  IdempotencyKey key;
+  Time first_used;
+};
+
 /// Lease of a job or of units: after `until`, unless it is renewed, the work may be given to another worker.
 struct Lease {
   std::string worker;  ///< name of the instance of the service
@@ -84,8 +90,10 @@ struct NewJob {
   bool patient = false;  ///< the commit may wait a millisecond for the outcome, to store both at once
   bool reuse = false;    ///< the result of a successful job of the same owner and content may be used
   Quotas quotas = {};    ///< bounds of the owner
-  std::optional<Lease> lease = {};  ///< set: a worker has the job already, which begins running in attempt 1
+  std::optional<Lease> lease = {};  ///< set: a worker has the job already, which begins running
   Annotations annotations = {};
+  int attempt = 0;  ///< earlier claims, in another store; a lease is one more
+  int crashes = 0;  ///< earlier claims that ended with the death of their process
 };
 
 /// Outcome of a submission to a store.

@@ -38,7 +38,7 @@ class TableSource final : public BodySource {
 Status TableSource::append_rows(std::string& piece) {
   more_rows_ = false;
   std::uint64_t next = unread_.first;
-  Status status =
+  const Status status =
       store_.each_row(sweep_.id, unread_, [&](std::uint64_t point, const api::PointOutcome& outcome) {
         writer_.append_row(point, outcome, piece);
         next = point + 1;
@@ -103,7 +103,7 @@ class ResultTableSource final : public BodySource {
       std::string text;
       const StatusOr<bool> read = document_.append_next(text);
       if (!read.ok()) {
-        return read;
+        return read.status();
       }
       reader_.append(text, piece);
       more = *read;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::string_view kAssets = "/assets/";
 constexpr std::string_view kDocuments = "/docs/";
+/// The interface as the page shows it has an address that can be read out.
+constexpr std::string_view kInterface = "/docs";
 // Allows scripts, styles and requests of the service only. Exported pictures are drawn from a blob.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
@@ -175,12 +177,19 @@ const std::vector<FieldsDocument>& fields_documents() {
 }
 
 bool is_page_path(std::string_view path) {
-  return path == "/" || path.starts_with(kAssets) || path.starts_with(kDocuments);
+  return path == "/" || path == kInterface || path.starts_with(kAssets) || path.starts_with(kDocuments);
 }
 
 std::optional<Response> Page::respond(const Request& request) const {
   if (source_ == kNoPage || !is_page_path(request.path)) {
     return std::nullopt;
+  }
+  if (request.path == kInterface) {
+    Response response;
+    response.status = 302;
+    response.headers.emplace_back("Location", "/#/docs/interface");
+    response.route = kInterface;
+    return response;
   }
   const bool document = request.path.starts_with(kDocuments);
   std::optional<Response> response =

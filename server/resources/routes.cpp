@@ -1,5 +1,6 @@
 #include "server/resources/routes.h"
 
+#include <functional>
 #include <utility>
 
 namespace snapthrough::server::http {
@@ -85,9 +86,9 @@ struct Routes::Route {
   const char* method;
   const char* pattern;
   /// Called with the request and the segment {id}.
-  Response (Routes::*handler)(const Request&, const std::string&);
+  std::function<Response(Routes&, const Request&, const std::string&)> handler;
   /// Replaces `handler` for patterns with {n}, whose segment is the third argument.
-  Response (Routes::*point_handler)(const Request&, const std::string&, const std::string&) = nullptr;
+  std::function<Response(Routes&, const Request&, const std::string&, const std::string&)> point_handler = {};
 };
 
 const std::vector<Routes::Route>& Routes::table() {
@@ -135,9 +136,8 @@ Response Routes::respond(const Request& request) {
     if (method != route.method || !matches(route.pattern, request.path, found)) {
       continue;
     }
-    Response response = route.handler != nullptr
-                            ? (this->*route.handler)(request, found.id)
-                            : (this->*route.point_handler)(request, found.id, found.point);
+    Response response = route.handler ? route.handler(*this, request, found.id)
+                                      : route.point_handler(*this, request, found.id, found.point);
     response.route = route.pattern;
     return response;
   }

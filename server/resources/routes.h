@@ -120,8 +120,8 @@ class Routes {
   Response openapi(const Request& request, const std::string& id);
   Response examples(const Request& request, const std::string& id);
   Response alive(const Request& request, const std::string& id);
-  Response ready(const Request& request, const std::string& id);
-  Response metrics(const Request& request, const std::string& id);
+  Response ready(const Request& request, const std::string& id) const;
+  Response metrics(const Request& request, const std::string& id) const;
 
   JobService& jobs_;
   WaitLimits waits_;

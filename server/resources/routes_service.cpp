@@ -19,9 +19,11 @@ using nlohmann::ordered_json;
 /// Returns a request or a sweep, with or without its envelope.
 Envelope opened(std::string_view body, const JobLimits& limits) {
   Envelope envelope = open_envelope(body, "request", limits);
-  const bool sweep = envelope.document != nullptr && envelope.pointer.empty() &&
-                     envelope.document->is_object() && envelope.document->contains("sweep");
-  return sweep ? open_envelope(body, "sweep", limits) : envelope;
+  if (envelope.document != nullptr && envelope.pointer.empty() && envelope.document->is_object() &&
+      envelope.document->contains("sweep")) {
+    envelope = open_envelope(body, "sweep", limits);
+  }
+  return envelope;
 }
 
 Response fresh(Response response) {
@@ -82,7 +84,7 @@ Response Routes::alive(const Request& /*request*/, const std::string& /*id*/) {
   return fresh(json_response(200, "{\"status\":\"ok\"}"));
 }
 
-Response Routes::ready(const Request& request, const std::string& /*id*/) {
+Response Routes::ready(const Request& request, const std::string& /*id*/) const {
   const std::string why = facts_.not_ready ? facts_.not_ready() : "";
   if (why.empty()) {
     return fresh(json_response(200, "{\"status\":\"ok\"}"));
@@ -92,7 +94,7 @@ Response Routes::ready(const Request& request, const std::string& /*id*/) {
   return fresh(std::move(response));
 }
 
-Response Routes::metrics(const Request& /*request*/, const std::string& /*id*/) {
+Response Routes::metrics(const Request& /*request*/, const std::string& /*id*/) const {
   Response response;
   response.content_type = "text/plain; version=0.0.4; charset=utf-8";
   response.body = facts_.metrics ? facts_.metrics() : "";

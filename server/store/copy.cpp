@@ -143,13 +143,18 @@ Status copy_job(Store& from, Store& to, const Job& job) {
   }
   NewJob copy{job.id, job.title, job.analysis_type, **request, job.created, job.owner, job.content_key};
   copy.annotations = job.annotations;
+  copy.attempt = job.attempt;
+  copy.crashes = job.crashes;
   const bool ended = is_final(job.state);
   if (ended) {
     copy.annotations.callback.clear();  // the source has told it
+  }
+  if (ended && job.attempt > 0) {
+    copy.attempt = job.attempt - 1;
     copy.lease = Lease{kHolder, *job.finished};
   }
   const StatusOr<Submitted> submitted = to.submit(copy);
-  return submitted.ok() && ended ? end_job(from, to, job, {job.id, 1}) : submitted.status();
+  return submitted.ok() && ended ? end_job(from, to, job, {job.id, job.attempt}) : submitted.status();
 }
 
 /// Time of the source at which rows of a sweep are stored.
@@ -259,6 +264,21 @@ StatusOr<bool> remove_from(SweepStore& to, const std::string& id) {
   return more;
 }
 
+/// Copies the idempotency keys of an entry. The target keeps those that it has.
+template <class AnyStore>
+Status copy_keys(AnyStore& from, AnyStore& to, const std::string& id) {
+  const StatusOr<std::vector<UsedKey>> keys = from.keys(id);
+  if (!keys.ok()) {
+    return keys.status();
+  }
+  for (const UsedKey& key : *keys) {
+    if (Status status = to.add_key(id, key); !status.ok()) {
+      return status;
+    }
+  }
+  return {};
+}
+
 /// Copies an entry; returns false when the target had it.
 template <class Record, class AnyStore, class Copy>
 StatusOr<bool> copy_one(AnyStore& from, AnyStore& to, const std::string& id, const Copy& copy) {
@@ -267,11 +287,14 @@ StatusOr<bool> copy_one(AnyStore& from, AnyStore& to, const std::string& id, con
     return source.ok() ? missing(id) : source.status();
   }
   const StatusOr<bool> there = is_there<Record>(**source, to.get(id), [&] { return remove_from(to, id); });
-  if (!there.ok() || *there) {
-    return there.ok() ? StatusOr<bool>(false) : there.status();
+  if (!there.ok()) {
+    return there.status();
   }
-  const Status status = copy(**source);
-  return status.ok() ? StatusOr<bool>(true) : Status(status.code(), id + ": " + status.message());
+  Status status = *there ? Status() : copy(**source);
+  if (status.ok()) {
+    status = copy_keys(from, to, id);
+  }
+  return status.ok() ? StatusOr<bool>(!*there) : Status(status.code(), id + ": " + status.message());
 }
 
 }  // namespace

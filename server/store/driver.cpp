@@ -138,6 +138,8 @@ Submitted known_key(const Row& row, const IdempotencyKey& key) {
   return {same ? Submitted::Kind::repeated : Submitted::Kind::key_conflict, row.text(1)};
 }
 
+UsedKey read_used_key(const Row& row) { return {{row.text(0), row.text(1)}, row.time(2)}; }
+
 Branch read_branch(const Row& row) {
   Branch branch;
   branch.id = row.whole(0);

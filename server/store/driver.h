@@ -104,6 +104,9 @@ inline constexpr int kSweepColumnCount = 12;
 /// @param row fingerprint of the document that came with the key; id of the job or sweep that was made of it
 [[nodiscard]] Submitted known_key(const Row& row, const IdempotencyKey& key);
 
+/// @param row key, fingerprint, time of the first use
+[[nodiscard]] UsedKey read_used_key(const Row& row);
+
 /// Columns of read_branch() and add_branch(), and their number.
 extern const char* const kBranchColumns;
 inline constexpr int kBranchColumnCount = 7;

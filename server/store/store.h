@@ -73,6 +73,10 @@ class Store {
 
   /// Outcome of an earlier submission of the owner with the key; empty for a new key.
   virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
+  /// Idempotency keys that stand for a job, sorted; none when there is no such job.
+  virtual StatusOr<std::vector<UsedKey>> keys(std::string_view id) = 0;
+  /// Lets a key stand for a job unless the owner has used the key.
+  virtual Status add_key(std::string_view id, const UsedKey& key) = 0;
 
   /// Gives an accepted job to the caller and makes it running; empty when none waits. Owners take turns; the
   /// oldest job of an owner comes first. The claim survives the death of the process; after that of the

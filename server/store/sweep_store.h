@@ -43,6 +43,10 @@ class SweepStore {
   virtual StatusOr<Submitted> submit(const NewSweep& sweep) = 0;
   /// Outcome of an earlier submission of the owner with the key; empty for a new key.
   virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
+  /// Idempotency keys that stand for a sweep, sorted; none when there is no such sweep.
+  virtual StatusOr<std::vector<UsedKey>> keys(std::string_view id) = 0;
+  /// Lets a key stand for a sweep unless the owner has used the key.
+  virtual Status add_key(std::string_view id, const UsedKey& key) = 0;
   /// Number of accepted and running sweeps.
   virtual StatusOr<std::int64_t> unfinished() = 0;
   /// Ids of sweeps with units that nobody has: the oldest of each owner, then the second of each, and so on.

@@ -68,7 +68,7 @@ template <class T, class Visit>
 void for_each_sent(const Visit& visit) {
   if constexpr (api::kHasFields<T>) {
     api::for_each_field<T>([&](const auto& field) {
-      if constexpr (field.is(api::kSent)) visit(field.get);
+      if constexpr (api::FieldOf<decltype(field)>::is(api::kSent)) visit(field.get);
     });
   } else {
     std::apply([&](auto... member) { (visit(member), ...); }, kMembers<T>);

@@ -113,7 +113,7 @@ void check_object(const Schema& schema, const std::string& where) {
   std::vector<std::string> names;
   const Schema required = schema.value("required", Schema::array());
   for_each_field<T>([&](const auto& one) {
-    if constexpr (!one.is(kInternal) && !one.is(kKey)) {
+    if constexpr (!FieldOf<decltype(one)>::is(kInternal) && !FieldOf<decltype(one)>::is(kKey)) {
       using Value = ValueOf<T, std::remove_cvref_t<decltype(one)>>;
       const std::string name(one.name);
       const std::string here = where + "." + name;
@@ -128,7 +128,7 @@ void check_object(const Schema& schema, const std::string& where) {
       // what is absent where it is empty has no null, but for koiter, which tells two kinds of emptiness
       // apart
       constexpr bool is_never_null =
-          one.is(kIfAny) && !std::is_same_v<Value, std::optional<KoiterCoefficients>>;
+          FieldOf<decltype(one)>::is(kIfAny) && !std::is_same_v<Value, std::optional<KoiterCoefficients>>;
       using Present = std::conditional_t<is_never_null, typename Inside<Value>::Type, Value>;
       check_value<Present>(property, null, here);
     }

@@ -27,6 +27,8 @@ class FuzzedSweeps final : public SweepStore {
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
     return std::optional<Submitted>();
   }
+  StatusOr<std::vector<UsedKey>> keys(std::string_view) override { return std::vector<UsedKey>(); }
+  Status add_key(std::string_view, const UsedKey&) override { return store_is_full(); }
   StatusOr<std::int64_t> unfinished() override { return 0; }
   StatusOr<std::vector<std::string>> with_units() override { return std::vector<std::string>(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return std::optional<OpenSweep>(); }
@@ -104,6 +106,8 @@ class FuzzedStore final : public Store {
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
     return std::optional<Submitted>();
   }
+  StatusOr<std::vector<UsedKey>> keys(std::string_view) override { return std::vector<UsedKey>(); }
+  Status add_key(std::string_view, const UsedKey&) override { return store_is_full(); }
   StatusOr<std::optional<Claim>> claim(const Lease&, Time) override { return std::optional<Claim>(); }
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {
     return store_is_full();

@@ -32,6 +32,8 @@ void fill(Store& store) {
     ASSERT_TRUE(store.submit(job).ok());
   }
   ASSERT_TRUE(store.finish({id_number(1), 1}, sample_result(), at_second(30)).ok());
+  ASSERT_TRUE(store.add_key(id_number(1), {{"first", "abc"}, at_second(1)}).ok());
+  ASSERT_TRUE(store.add_key(id_number(1), {{"second", "abc"}, at_second(25)}).ok());
   const StoredPath reached{sample_result().branches, {}};
   ASSERT_TRUE(
       store.fail({id_number(2), 1}, {"no_convergence", "why\0not", "{}"}, reached, at_second(31)).ok());
@@ -40,6 +42,7 @@ void fill(Store& store) {
     NewSweep sweep{id_number(number), "t", column_sweep(9000), 9000, at_second(number)};
     sweep.analysis_type = "path";
     ASSERT_TRUE(store.sweeps().submit(sweep).ok());
+    ASSERT_TRUE(store.sweeps().add_key(sweep.id, {{"key " + sweep.id, "def"}, at_second(number)}).ok());
     const std::uint64_t most = number == 14 ? 0 : number == 13 ? 10 : 9000;
     if (most == 0) {
       continue;
@@ -90,6 +93,16 @@ std::vector<bool> units_left(Store& store, const NewSweep& sweep) {
   }
 }
 
+template <class AnyStore>
+std::string keys_of(AnyStore& store, const std::string& id) {
+  std::string text;
+  const std::vector<UsedKey> keys = *store.keys(id);
+  for (const UsedKey& used : keys) {
+    text += " " + used.key.key + "=" + used.key.fingerprint + "@" + rfc3339(used.first_used);
+  }
+  return text;
+}
+
 /// All that a copy keeps, as text.
 std::string told(Store& store) {
   std::string text;
@@ -98,6 +111,7 @@ std::string told(Store& store) {
     const JobPage jobs = *store.list({100, {}, {}, owner});
     for (const Job& job : jobs.jobs) {
       text += job.id + " " + std::string(to_string(job.state)) + " " + job.owner + " " + job.title + " " +
+              std::to_string(job.attempt) + " " + std::to_string(job.crashes) + keys_of(store, job.id) + " " +
               job.content_key + " " + job.annotations.label + " " + rfc3339(job.created) + " " +
               (job.finished ? rfc3339(*job.finished) : "") + " " + store.request(job.id)->value_or("none") +
               result_of(store, job.id).value_or("") + " " +
@@ -118,7 +132,8 @@ std::string told(Store& store) {
                       .ok());
       text += sweep.id + " " + std::string(to_string(sweep.state)) + " " + std::to_string(sweep.successful) +
               " " + std::to_string(sweep.failed) + " " + rfc3339(sweep.created) +
-              (sweep.finished ? rfc3339(*sweep.finished) : "") + " " + std::to_string(rows) + "\n";
+              (sweep.finished ? rfc3339(*sweep.finished) : "") + " " + std::to_string(rows) +
+              keys_of(store.sweeps(), sweep.id) + "\n";
     }
   }
   return text;
@@ -155,6 +170,61 @@ TEST(Copy, ToAnotherDriverAndBackKeepsJobsSweepsAndRows) {
   ASSERT_TRUE(copy_store(*first, *second, again, silent).ok());
   EXPECT_EQ(again.there, 9);
   EXPECT_EQ(again.jobs + again.sweeps, 0);
+}
+
+TEST(Copy, KeepsAttemptsAndCrashesOfJobs) {
+  for (const std::size_t source : {0U, 1U}) {
+    const TempDir first_folder;
+    const TempDir second_folder;
+    const auto first = *store_drivers()[source].open(first_folder);
+    const auto second = *store_drivers()[1 - source].open(second_folder);
+    for (int number = 1; number <= 4; ++number) {
+      ASSERT_TRUE(first->submit(new_job(id_number(number), number)).ok());
+    }
+    ASSERT_TRUE(first->dismiss(id_number(4), at_second(9)).ok()) << "before any attempt";
+    for (int attempt = 1; attempt <= 2; ++attempt) {  // two workers die with jobs 1 to 3
+      for (int number = 1; number <= 3; ++number) {
+        ASSERT_TRUE(
+            (*first->claim({"dead", at_second(10 * attempt + 1)}, at_second(10 * attempt))).has_value());
+      }
+      ASSERT_EQ(first->rescue("alive", 3, at_second(10 * attempt + 2))->requeued.size(), 3U);
+    }
+    ASSERT_TRUE(first->claim(kLease, at_second(40)).ok());
+    ASSERT_TRUE(first->finish({id_number(1), 3}, sample_result(), at_second(41)).ok());
+    ASSERT_TRUE(first->claim(kLease, at_second(42)).ok());
+    CopyCounts counts;
+    const Status copied = copy_store(*first, *second, counts, [](const CopyCounts&) {});
+    ASSERT_TRUE(copied.ok()) << copied.message();
+    std::string expected = told(*first);
+    expected.replace(expected.find(" running "), 9, " accepted ");
+    EXPECT_EQ(told(*second), expected);
+    const std::optional<Claim> third = *second->claim({"dead", at_second(51)}, at_second(50));
+    ASSERT_TRUE(third.has_value());
+    EXPECT_EQ(third->attempt, 4) << "job 2 had three claims";
+    EXPECT_EQ(second->rescue("alive", 3, at_second(52))->failed, std::vector{id_number(2)})
+        << "its third crash";
+  }
+}
+
+TEST(Copy, ARepeatedSubmissionFindsItsJobInTheCopy) {
+  const TempDir first_folder;
+  const TempDir second_folder;
+  const auto first = *store_drivers()[0].open(first_folder);
+  const auto second = *store_drivers()[1].open(second_folder);
+  NewJob job = new_job(id_number(1), 1);
+  job.idempotency = IdempotencyKey{"once", "abc"};
+  ASSERT_TRUE(first->submit(job).ok());
+  ASSERT_TRUE(second->submit(job).ok());
+  ASSERT_TRUE(second->forget_keys(std::chrono::seconds(0), at_second(2)).ok());
+  CopyCounts counts;
+  ASSERT_TRUE(copy_store(*first, *second, counts, [](const CopyCounts&) {}).ok());
+  EXPECT_EQ(counts.there, 1) << "a copy that was cut short before the keys";
+  job.id = id_number(2);
+  const Submitted again = *second->submit(job);
+  EXPECT_EQ(again.kind, Submitted::Kind::repeated);
+  EXPECT_EQ(again.id, id_number(1));
+  ASSERT_TRUE(second->forget_keys(std::chrono::seconds(10), at_second(12)).ok());
+  EXPECT_TRUE(second->keys(id_number(1))->empty()) << "its age is that in the source";
 }
 
 TEST(Copy, AnUnfinishedSweepGoesOnWithItsRows) {

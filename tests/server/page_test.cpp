@@ -154,10 +154,26 @@ TEST_F(PageTest, TheDocumentsComeWithIt) {
   EXPECT_EQ(document.header("Cache-Control"), "no-cache");
   EXPECT_THAT(document.body, StartsWith("# Theory"));
   EXPECT_EQ(get(port(), "/docs/thesis/figure_4_2.svg").header("Content-Type"), "image/svg+xml");
-  for (const char* path :
-       {"/docs", "/docs/", "/docs/none.md", "/docs/page/README.md", "/docs/../README.md"}) {
+  const Reply docs = get(port(), "/docs");
+  EXPECT_EQ(docs.status, 302);
+  EXPECT_EQ(docs.header("Location"), "/#/docs/interface");
+  for (const char* path : {"/docs/", "/docs/none.md", "/docs/page/README.md", "/docs/../README.md"}) {
     EXPECT_THAT(get(port(), path).status, testing::AnyOf(401, 404)) << path;
   }
+}
+
+TEST_F(PageTest, EachExampleOfTheInterfaceIsTaken) {
+  serve_built_in();
+  int examples = 0;
+  const nlohmann::json interface = nlohmann::json::parse(get(port(), "/v1/openapi.json").body);
+  for (const auto& [path, operations] : interface["paths"].items()) {
+    const nlohmann::json::json_pointer place("/post/requestBody/content/application~1json/example");
+    if (operations.contains(place)) {
+      ++examples;
+      EXPECT_THAT(post(port(), path, operations[place].dump()).status, testing::AnyOf(200, 201)) << path;
+    }
+  }
+  EXPECT_EQ(examples, 3) << "jobs, sweeps and the check";
 }
 
 TEST_F(PageTest, RequestsAndResultsHaveTheirTablesOfFields) {

@@ -291,6 +291,29 @@ test('a path with frequencies shows them beside it, and its flutter', async () =
   await close(page);
 });
 
+test('a document of another title is another problem: the sliders of the one before go', async () => {
+  const page = await studio();
+  await settled(page);
+  await page.getByLabel('Wall thickness, value in mm').waitFor();
+  await page.getByRole('tab', { name: 'JSON' }).click();
+  await page.locator('.cm-content').click();
+  await page.keyboard.press('Control+a');
+  await page.keyboard.insertText(JSON.stringify({
+    model: {
+      title: 'Own column',
+      nodes: [{ id: 'a', x: 0, y: 0 }, { id: 'b', x: 1, y: 0 }],
+      sections: [{ id: 's', EA: 1e6, EI: 1 }],
+      members: [{ id: 'm', start: 'a', end: 'b', section: 's' }],
+      supports: [{ node: 'a', fixed: ['x', 'y'] }, { node: 'b', fixed: ['y'] }],
+      loads: [{ type: 'point', at: { node: 'b' }, force: [-1, 0] }],
+    },
+    analysis: { type: 'buckling' },
+  }));
+  await page.getByRole('heading', { level: 1, name: 'Own column' }).waitFor();
+  assert.equal(await page.getByLabel('Wall thickness, value in mm').count(), 0);
+  await close(page);
+});
+
 test('a mistake that the form makes is told at its field', async () => {
   const page = await studio();
   await settled(page);

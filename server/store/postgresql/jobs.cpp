@@ -27,9 +27,9 @@ Statement insert_job(const NewJob& job, const Clock& clock) {
   static constexpr std::string_view kSql =
       "WITH job AS (INSERT INTO jobs (id, title, analysis_type, created_us, owner, content_key, status, "
       "label,"
-      "  metadata, callback, bytes, attempt, started_us)"
-      " SELECT $1, $2, $3, moment, $5, $6, $7, $8, $9, $10, $11, CASE WHEN $13 IS NOT NULL THEN 1 ELSE 0 END,"
-      "  CASE WHEN $13 IS NOT NULL THEN moment END"
+      "  metadata, callback, bytes, attempt, started_us, crashes)"
+      " SELECT $1, $2, $3, moment, $5, $6, $7, $8, $9, $10, $11,"
+      "  $15 + CASE WHEN $13 IS NOT NULL THEN 1 ELSE 0 END, CASE WHEN $13 IS NOT NULL THEN moment END, $16"
       " FROM (SELECT coalesce($4, snapthrough_now()) AS moment) AS clock RETURNING seq, started_us),"
       " lease AS (INSERT INTO job_leases (job, worker, until_us)"
       "  SELECT seq, $13, started_us + $14 FROM job WHERE $13 IS NOT NULL)"
@@ -42,7 +42,9 @@ Statement insert_job(const NewJob& job, const Clock& clock) {
   row.add_bytes_or_null(notes.label).add_bytes_or_null(notes.metadata).add(text_or_null(notes.callback));
   row.add(static_cast<std::int64_t>(job.document.size())).add_bytes(job.document);
   row.add(lease ? std::optional<std::string_view>(lease->worker) : std::nullopt);
-  row.add(lease ? microseconds(lease->until - job.created) : std::int64_t{0});
+  row.add(lease ? microseconds(lease->until - job.created) : std::int64_t{0})
+      .add(job.attempt)
+      .add(job.crashes);
   return {kSql, std::move(row)};
 }
 
@@ -158,6 +160,22 @@ class PostgresqlStore final : public Store {
     return database_.read<std::optional<Submitted>>([&](Connection& connection) {
       return known_key(connection.run(kKnownKey, Parameters().add(owner).add(key.key)), key);
     });
+  }
+
+  StatusOr<std::vector<UsedKey>> keys(std::string_view id) override {
+    return database_.read<std::vector<UsedKey>>([&](Connection& connection) {
+      return used_keys(connection.run(
+          "SELECT key, fingerprint, idempotency_keys.created_us FROM idempotency_keys JOIN jobs ON seq = job"
+          " WHERE id = $1 ORDER BY key COLLATE \"C\"",
+          Parameters().add(id)));
+    });
+  }
+
+  Status add_key(std::string_view id, const UsedKey& used) override {
+    return database_.write_at_once(
+        {{"INSERT INTO idempotency_keys (owner, key, fingerprint, job, created_us)"
+          " SELECT owner, $1, $2, seq, $3 FROM jobs WHERE id = $4 ON CONFLICT DO NOTHING",
+          key_parameters(id, used)}});
   }
 
   StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) override {

@@ -41,6 +41,20 @@ class Clock {
   return rows.empty() ? std::nullopt : std::optional(server::known_key(rows[0], key));
 }
 
+/// Rows as keys, see read_used_key().
+[[nodiscard]] inline std::vector<UsedKey> used_keys(const Rows& rows) {
+  std::vector<UsedKey> keys;
+  keys.reserve(static_cast<std::size_t>(rows.count()));
+  for (int row = 0; row < rows.count(); ++row) {
+    keys.push_back(read_used_key(rows[row]));
+  }
+  return keys;
+}
+/// Key, fingerprint, time of the first use and the id of the job or sweep, for a statement that inserts them.
+[[nodiscard]] inline Parameters key_parameters(std::string_view id, const UsedKey& used) {
+  return Parameters().add(used.key.key).add(used.key.fingerprint).add(to_row(used.first_used)).add(id);
+}
+
 // Parts of the store. REQUIRES: the database outlives them.
 [[nodiscard]] std::unique_ptr<Store> jobs_in(const std::string& location, int connections, Clock clock);
 [[nodiscard]] std::unique_ptr<SweepStore> sweeps_in(Database& database, Clock clock);

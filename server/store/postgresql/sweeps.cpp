@@ -235,6 +235,22 @@ class PostgresqlSweepStore final : public SweepStore {
     });
   }
 
+  StatusOr<std::vector<UsedKey>> keys(std::string_view id) override {
+    return database_.read<std::vector<UsedKey>>([&](Connection& connection) {
+      return used_keys(connection.run(
+          "SELECT key, fingerprint, sweep_keys.created_us FROM sweep_keys JOIN sweeps ON seq = sweep"
+          " WHERE id = $1 AND NOT removed ORDER BY key COLLATE \"C\"",
+          Parameters().add(id)));
+    });
+  }
+
+  Status add_key(std::string_view id, const UsedKey& used) override {
+    return database_.write_at_once(
+        {{"INSERT INTO sweep_keys (owner, key, fingerprint, sweep, created_us)"
+          " SELECT owner, $1, $2, seq, $3 FROM sweeps WHERE id = $4 AND NOT removed ON CONFLICT DO NOTHING",
+          key_parameters(id, used)}});
+  }
+
   StatusOr<SweepChange> dismiss(std::string_view id, Time now) override {
     static const std::string kEnd = "UPDATE sweeps SET " + becomes(SweepEvent::dismiss) +
                                     ", finished_us = coalesce($2, snapthrough_now()) WHERE seq = $1";

@@ -29,6 +29,15 @@ Status migrate(Connection& connection, std::span<const Migration> migrations, Ti
 [[nodiscard]] Status admit(Connection& connection, std::string_view owner, const Quotas& quotas,
                            const Usage& addition, Time now);
 
+/// The rows of a statement as keys, see read_used_key().
+[[nodiscard]] inline std::vector<UsedKey> used_keys(Statement rows) {
+  std::vector<UsedKey> keys;
+  while (rows.step()) {
+    keys.push_back(read_used_key(rows));
+  }
+  return keys;
+}
+
 /// Inserts branches with their series, and critical points. @param job number of its row
 void insert_path(Connection& connection, std::int64_t job, const std::vector<Branch>& branches,
                  const std::vector<CriticalPoint>& critical_points);

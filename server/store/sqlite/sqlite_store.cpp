@@ -85,14 +85,14 @@ std::int64_t insert_job(Connection& connection, const NewJob& job) {
   const std::optional<Lease>& lease = job.lease;
   connection.run(
       "INSERT INTO jobs (id, title, analysis_type, created_us, owner, content_key, status, attempt,"
-      " started_us, worker, lease_until_us, label, metadata, callback)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      " started_us, worker, lease_until_us, label, metadata, callback, crashes)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       job.id, job.title, job.analysis_type, to_row(job.created), job.owner, job.content_key,
-      to_string(lease ? JobState::running : JobState::accepted), lease ? 1 : 0,
+      to_string(lease ? JobState::running : JobState::accepted), job.attempt + (lease ? 1 : 0),
       lease ? std::optional(to_row(job.created)) : std::nullopt,
       lease ? std::optional<std::string_view>(lease->worker) : std::nullopt,
       lease ? std::optional(to_row(lease->until)) : std::nullopt, text_or_null(job.annotations.label),
-      text_or_null(job.annotations.metadata), text_or_null(job.annotations.callback));
+      text_or_null(job.annotations.metadata), text_or_null(job.annotations.callback), job.crashes);
   const std::int64_t row = connection.last_row();
   connection.run("INSERT INTO requests (job, document) VALUES (?, ?)", row, job.document);
   return row;
@@ -217,6 +217,25 @@ class SqliteStore final : public Store {
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) override {
     return database_.read<std::optional<Submitted>>(
         [&](const Connection& connection) { return find_key_in(connection, key, owner); });
+  }
+
+  StatusOr<std::vector<UsedKey>> keys(std::string_view id) override {
+    return database_.read<std::vector<UsedKey>>([&](const Connection& connection) {
+      return used_keys(
+          connection.query("SELECT key, fingerprint, idempotency_keys.created_us FROM idempotency_keys"
+                           " JOIN jobs ON jobs.seq = job WHERE jobs.id = ? ORDER BY key",
+                           id));
+    });
+  }
+
+  Status add_key(std::string_view id, const UsedKey& used) override {
+    return database_.write_only([&](Connection& connection) {
+      connection.run(
+          "INSERT OR IGNORE INTO idempotency_keys (owner, key, fingerprint, job, created_us)"
+          " SELECT owner, ?, ?, seq, ? FROM jobs WHERE id = ?",
+          used.key.key, used.key.fingerprint, to_row(used.first_used), id);
+      return Status();
+    });
   }
 
   StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) override {

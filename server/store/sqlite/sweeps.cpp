@@ -222,6 +222,25 @@ class SqliteSweepStore final : public SweepStore {
         [&](const Connection& connection) { return find_key_in(connection, key, owner); });
   }
 
+  StatusOr<std::vector<UsedKey>> keys(std::string_view id) override {
+    return database_.read<std::vector<UsedKey>>([&](const Connection& connection) {
+      return used_keys(connection.query(
+          "SELECT key, fingerprint, sweep_keys.created_us FROM sweep_keys"
+          " JOIN sweeps ON sweeps.seq = sweep WHERE sweeps.id = ? AND NOT removed ORDER BY key",
+          id));
+    });
+  }
+
+  Status add_key(std::string_view id, const UsedKey& used) override {
+    return database_.write_only([&](Connection& connection) {
+      connection.run(
+          "INSERT OR IGNORE INTO sweep_keys (owner, key, fingerprint, sweep, created_us)"
+          " SELECT owner, ?, ?, seq, ? FROM sweeps WHERE id = ? AND NOT removed",
+          used.key.key, used.key.fingerprint, to_row(used.first_used), id);
+      return Status();
+    });
+  }
+
   StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,
                                            Time now) override {
     using Outcome = StatusOr<std::optional<UnitClaim>>;

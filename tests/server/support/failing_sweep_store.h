@@ -17,6 +17,8 @@ class FailingSweepStore final : public SweepStore {
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
     return status();
   }
+  StatusOr<std::vector<UsedKey>> keys(std::string_view) override { return status(); }
+  Status add_key(std::string_view, const UsedKey&) override { return status(); }
   StatusOr<std::int64_t> unfinished() override { return status(); }
   StatusOr<std::vector<std::string>> with_units() override { return status(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return status(); }

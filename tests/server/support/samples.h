@@ -83,7 +83,7 @@ void fill(std::vector<T>& values) {
 template <class T>
 void fill_stored_fields(T& object) {
   api::for_each_field<T>([&](const auto& field) {
-    if constexpr (field.is(api::kStored)) fill(object.*field.get);
+    if constexpr (api::FieldOf<decltype(field)>::is(api::kStored)) fill(object.*field.get);
   });
 }
 

@@ -67,6 +67,9 @@ class PageClient extends Client {
   override read<T>(path: string, request?: RequestInit): Promise<T> {
     return noted(super.read<T>(path, request));
   }
+  async interface(): Promise<string> {
+    return (await this.call("/v1/openapi.json")).text();
+  }
   async document(name: string): Promise<string> {
     return (await this.call(`/docs/${name}.md`)).text();
   }

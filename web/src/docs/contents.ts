@@ -7,6 +7,7 @@ export interface Entry {
 }
 
 export const kContents: readonly Entry[] = [
+  { name: "tutorial", heading: "From a sketch to a design chart", text: "One problem by command line, HTTP, Python and this page." },
   { name: "gallery", heading: "The problems of the gallery", text: "What each is a model of, what moves it, and how exact its numbers are." },
   { name: "requests", heading: "Requests", text: "How a structure, its ground, its loads and an analysis are written, with every field." },
   { name: "results", heading: "Results", text: "What comes back, how to read the path, and what kinds of points it has." },
@@ -17,6 +18,7 @@ export const kContents: readonly Entry[] = [
   { name: "stress", heading: "Stress tests", text: "Random models and pairs of models that must agree, with what was found." },
   { name: "gallery/README", heading: "Real problems", text: "Liners, piles, pipelines, tunnels and frames, each with a design chart and published values." },
   { name: "thesis/README", heading: "The examples of the thesis", text: "Figures and tables of the 2016 thesis, computed again." },
+  { name: "interface", heading: "The interface", text: "Every address and every field, from the service's OpenAPI document." },
   { name: "service", heading: "The service", text: "Addresses, waiting, errors, callbacks, settings, limits and metrics." },
 ];
 
@@ -50,7 +52,7 @@ export function linkTarget(from: string, href: string): string | null {
   if (/^https?:/.test(href)) return href;
   const [path = "", section = ""] = href.split("#");
   if (path === "") return documentAddress(from, section);
-  if (path.endsWith("openapi.json")) return "/v1/openapi.json";
+  if (path.endsWith("openapi.json")) return documentAddress("interface");
   const example = /(?:^|\/)examples\/([a-z0-9_]+)\.json$/.exec(path);
   if (example?.[1]) return `#/studio?example=${example[1]}`;
   const file = resolved(from, path);

@@ -1,9 +1,9 @@
 // The documents inside the page: the list of them, or one, with its reader loaded when it is opened.
 
+import type { ComponentType } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { service } from "../api/client";
 import { documentAddress, kContents } from "./contents";
-import type { MarkdownView } from "./document";
 
 function Contents() {
   return (
@@ -14,7 +14,6 @@ function Contents() {
           {kContents.map(({ name, heading, text }) => (
             <div key={name}><dt><a href={documentAddress(name)}>{heading}</a></dt><dd>{text}</dd></div>
           ))}
-          <div><dt><a href="/v1/openapi.json">The interface</a></dt><dd>Every address and every field, as an OpenAPI document.</dd></div>
         </dl>
       </section>
     </main>
@@ -24,7 +23,17 @@ function Contents() {
 interface Loaded {
   name: string;
   text: string;
-  View: typeof MarkdownView;
+  View: ComponentType<{ name: string; text: string; section: string }>;
+}
+
+/** The text of a document, and what shows it. */
+async function load(name: string): Promise<Loaded> {
+  if (name === "interface") {
+    const [text, module] = await Promise.all([service.interface(), import("./interface")]);
+    return { name, text, View: module.InterfaceView };
+  }
+  const [text, module] = await Promise.all([service.document(name), import("./document")]);
+  return { name, text, View: module.MarkdownView };
 }
 
 export function DocsView({ name, section }: { name: string | null; section: string }) {
@@ -34,8 +43,8 @@ export function DocsView({ name, section }: { name: string | null; section: stri
     if (name === null) return;
     let left = false;
     setTrouble("");
-    Promise.all([service.document(name), import("./document")]).then(([text, module]) => {
-      if (!left) setLoaded({ name, text, View: module.MarkdownView });
+    load(name).then((document) => {
+      if (!left) setLoaded(document);
     }, (error: unknown) => {
       if (!left) setTrouble(error instanceof Error ? error.message : "The document could not be loaded.");
     });

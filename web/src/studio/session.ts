@@ -261,6 +261,12 @@ export async function openAny(request: RequestDocument): Promise<void> {
   openRequest(request, same ?? null);
 }
 
+/** Takes a request that was typed or dropped: one of another title is another problem, without the sliders of this one. */
+export function takeDocument(request: RequestDocument): void {
+  if (request.model.title === studio.get().request?.model.title) setRequest(request);
+  else void openAny(request);
+}
+
 /** Opens an example of the service, with the sliders of the gallery where it is there. */
 export async function openExample(name: string): Promise<void> {
   try {

@@ -16,7 +16,7 @@ import { ResultViews } from "../views/result_views";
 import { useGallery } from "./gallery_dialog";
 import { JsonPanel } from "./json_panel";
 import { ModelForm } from "./model_form";
-import { isStale, keep, openAny, openExample, openFirst, openProblem, pin, restore, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
+import { isStale, keep, openAny, openExample, openFirst, openProblem, pin, restore, setRequest, setSlider, setSliders, studio, takeDocument, unpin, type Studio } from "./session";
 import { SliderRow } from "./slider_row";
 import { SweepBuilder } from "../sweeps/sweep_builder";
 import { findingsOf, Trouble } from "./trouble";
@@ -84,7 +84,7 @@ function PanelOf({ panel, state }: { panel: Panel; state: Studio }) {
                           if (slider) setSliders([...sliders, slider]);
                         }} />;
     case "json":
-      return <JsonPanel request={request} onChange={setRequest} />;
+      return <JsonPanel request={request} onChange={takeDocument} />;
     case "sweep":
       return <SweepBuilder request={request} sliders={sliders} />;
   }
