@@ -28,6 +28,7 @@ class FrequencyProbe {
   [[nodiscard]] Frequencies in_units(const NaturalMotions& motions) const;
   /// omega^2 of the scaled eigenvalue one, in the model's units.
   [[nodiscard]] double unit() const { return masses_.square; }
+  [[nodiscard]] double scale() const { return masses_.scale; }
 
  private:
   const Structure& structure_;

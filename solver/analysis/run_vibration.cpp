@@ -19,8 +19,8 @@ namespace {
 
 /// Limits of the comparison of meshes, ratios.
 struct VibrationLimits {
-  /// Share of the largest asked eigenvalue of a state below which eigenvalues count as zero: twice the digits
-  /// to which natural_motions() finds them, for the motions of free bodies.
+  /// Share of the largest asked eigenvalue of a state, or of that of a member alone, below which eigenvalues
+  /// count as zero: twice the digits to which natural_motions() finds them, for the motions of free bodies.
   static constexpr double zero = 1e-9;
 };
 
@@ -29,7 +29,8 @@ struct Level {
   std::shared_ptr<const Structure> structure;
   std::vector<std::optional<NaturalMotions>> rows;
   double unit = 1.0;
-  Result result;  ///< the states, as a static analysis gives them
+  double scale = 0.0;  ///< MassMatrix::scale
+  Result result;       ///< the states, as a static analysis gives them
 };
 
 Level solve_on(const Model& model, const Analysis& analysis, std::shared_ptr<const Structure> structure,
@@ -40,6 +41,7 @@ Level solve_on(const Model& model, const Analysis& analysis, std::shared_ptr<con
   out.result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
   FrequencyProbe probe(*out.structure, model, analysis.modes, true);
   out.unit = probe.unit();
+  out.scale = probe.scale();
   Analysis states = analysis;
   states.type = AnalysisType::static_;
   states.unstable = Unstable::follow;
@@ -71,7 +73,7 @@ bool compare(const Level& coarse, const Level& fine, double accuracy,
       within = false;
       continue;
     }
-    double largest = 0.0;
+    double largest = fine.scale;
     for (const auto& square : b) largest = std::max(largest, std::abs(square));
     errors[row].resize(a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {

@@ -23,6 +23,8 @@ struct SearchLimits {
   static constexpr double massless = 1e-13;   ///< eigenvalue of the inverse, over the largest: no mass moves
   static constexpr double far = 30.0;         ///< shift over the lowest eigenvalues at which it is moved
   static constexpr double below = 0.3;        ///< moved shift over the lowest eigenvalues
+  static constexpr double zero =
+      1e-6;  ///< eigenvalues over the shift that count as zero: no shift is near them
   static constexpr double first_shift = 0.1;  ///< first shift over the scale
   static constexpr int shifts = 60;           ///< shifts that are tried
   static constexpr int tries = 3;             ///< starts from other vectors when an eigenvalue was missed
@@ -223,11 +225,12 @@ double factorise_below(ShiftedInverse& inverse, double shift) {
   return shift;
 }
 
-/// Whether an inertia count finds as many eigenvalues as the search, up to the last gap among them.
-bool is_complete(ShiftedInverse& inverse, const NaturalMotions& found) {
+/// Whether an inertia count finds as many eigenvalues as the search, just above the last of them.
+/// @param shift of the search, by whose size eigenvalues are told apart
+bool is_complete(ShiftedInverse& inverse, double shift, const NaturalMotions& found) {
   std::size_t n = found.squares.size();
   const auto at = [&](std::size_t i) { return found.squares[i].real(); };
-  const double above = at(n - 1) + SearchLimits::gap * (std::abs(at(n - 1)) + std::abs(at(0)));
+  const double above = at(n - 1) + SearchLimits::gap * (std::abs(at(n - 1)) + std::abs(shift));
   return inverse.factorise(above) == static_cast<int>(n);
 }
 
@@ -246,12 +249,12 @@ NaturalMotions natural_motions(const Structure& structure, StructuralProblem& pr
     // a shift far below the eigenvalues makes them alike: they lose digits, and the iteration is slow
     double size = 0.0;
     for (const auto& mu : out.squares) size = std::max(size, std::abs(mu));
-    if (-shift > SearchLimits::far * size && size > 0.0) {
+    if (-shift > SearchLimits::far * size && size > SearchLimits::zero * -shift) {
       shift = factorise_below(inverse, -SearchLimits::below * size);
       search_at(inverse, shift, search, seed, out);
     }
     if (!search.counted || !inverse.is_symmetric()) break;
-    out.complete = is_complete(inverse, out);
+    out.complete = is_complete(inverse, shift, out);
     if (out.complete && out.converged) break;
     shift = factorise_below(inverse, shift);
   }

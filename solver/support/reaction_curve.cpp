@@ -125,7 +125,7 @@ std::vector<double> slopes_of(const Points& points) {
 
 /// Points with the origin first.
 Points with_origin(Points points) {
-  if (points.front()[0] > 0.0) points.insert(points.begin(), {0.0, 0.0});
+  if (points.empty() || points.front()[0] > 0.0) points.insert(points.begin(), {0.0, 0.0});
   return points;
 }
 
@@ -202,7 +202,8 @@ class TableCurve final : public ReactionCurve {
 }  // namespace
 
 double initial_slope(const std::vector<std::array<double, 2>>& points) {
-  return slopes_of(with_origin(points))[0];
+  const Points all = with_origin(points);
+  return all.size() < 2 ? 0.0 : slopes_of(all)[0];
 }
 
 std::shared_ptr<const ReactionCurve> curve_of(const ReactionLaw& law) {

@@ -44,7 +44,8 @@ class ReactionCurve {
 /// @pre the law passed check()
 [[nodiscard]] std::shared_ptr<const ReactionCurve> curve_of(const ReactionLaw& law);
 
-/// @brief Slope at the origin of the monotone cubic through the points of a table.
+/// @brief Slope at the origin of the monotone cubic through the points of a table; 0 for a table without a
+/// point beyond the origin, which check() refuses.
 [[nodiscard]] double initial_slope(const std::vector<std::array<double, 2>>& points);
 
 }  // namespace snapthrough

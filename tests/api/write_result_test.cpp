@@ -55,6 +55,7 @@ Result full_result() {
                  {0, 1},
                  {1.0, std::nullopt},
                  {{"soil", {1.0, 0.5}}},
+                 {},
                  "limit_points"},
                 {1, 0, {}, {}, {}, {}, {}, {}}};
   r.neutral_motion = {{0, 0.5, {}, {{"n", 0.0, 1.0, 0.25}}}};

@@ -82,7 +82,7 @@ struct Coarse {
     if (!outcome.critical.empty()) event = outcome.critical[0];
   }
   [[nodiscard]] FineMesh finer() const {
-    return {on_mesh(structure, model, *finer_mesh(structure.mesh)), follower, 1e-11};
+    return {on_mesh(structure, model, *finer_mesh(structure.mesh)), model, follower, 1e-11};
   }
 
   Model model;

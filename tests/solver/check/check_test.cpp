@@ -555,5 +555,34 @@ TEST(Check, StatePointsAreBounded) {
               ElementsAre(is_finding("/analysis/output/points_per_member", "too_many")));
 }
 
+/// Rules that ask for the stiffness of a law meet it before its own rules have refused it.
+TEST(Check, RefusesTablesWithoutPointsWhereverTheirStiffnessIsAskedFor) {
+  for (const std::vector<std::array<double, 2>>& points :
+       {std::vector<std::array<double, 2>>{}, {{0.0, 0.0}}, {{0.0, 1.0}}}) {
+    auto [model, analysis] = testing::sound_request();
+    analysis.type = AnalysisType::buckling;
+    analysis.reversed = true;
+    ReactionLaw law;
+    law.type = ReactionLaw::Type::table;
+    law.points = points;
+    Foundation base;
+    base.id = "table";
+    base.member = model.members[0].id;
+    base.reaction = Reaction::compression_only;
+    base.law = law;
+    model.foundations = {base};
+    Spring spring;
+    spring.id = "law";
+    spring.at = {model.nodes[0].id, "", 0.0};
+    spring.direction = {{0.0, 1.0}};
+    spring.law = law;
+    model.springs = {spring};
+    const std::vector<Finding> findings = check(model, analysis);
+    EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+      return finding.pointer.starts_with("/model/foundations/0/law/points");
+    }));
+  }
+}
+
 }  // namespace
 }  // namespace snapthrough
