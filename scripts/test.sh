@@ -75,7 +75,13 @@ bash scripts/clients_python_test.sh "build/$preset"
 step "commands of the documents, and the script of the theory"
 python3 scripts/check_code_blocks.py "build/$preset/snapthrough"
 /usr/bin/python3 docs/theory/shallow_arch.py
+/usr/bin/python3 docs/theory/lees_frame.py
 
 step "thesis examples and gallery"
 python3 scripts/report.py --self-test
 python3 scripts/report.py "build/$preset/snapthrough" --check
+
+step "scripts/run.sh: a real analysis through the service"
+if [ "$preset" = release ]; then
+  PORT=18099 bash scripts/run.sh --once
+fi

@@ -20,7 +20,8 @@ namespace {
 std::array<double, 2> largest_of(const ReactionLaw& law) {
   if (law.type != ReactionLaw::Type::table) return {law.stiffness.largest(), law.capacity.largest()};
   const double factor = law.factor.largest();
-  return {factor * initial_slope(law.points), factor * law.points.back()[1]};
+  const double last = law.points.empty() ? 0.0 : law.points.back()[1];
+  return {factor * initial_slope(law.points), factor * last};
 }
 
 AlongMember over_largest(AlongMember value) {

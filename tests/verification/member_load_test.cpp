@@ -310,7 +310,8 @@ TEST(PressureAlongAMember, BalancesUnderLargeDisplacements) {
   ASSERT_EQ(result.states.size(), 2u);
   for (const State& state : result.states) expect_balance(model, mesh, state, 1e-9);
   EXPECT_GT(std::abs(result.states[1].members[0].rotation.back()), 0.3);
-  EXPECT_LT(result.diagnostics.iterations, 60);
+  // a third of them at places within steps, where divergence is looked for
+  EXPECT_LT(result.diagnostics.iterations, 80);
 }
 
 /// Derivatives of a critical load by the mass and by the peak of a load agree with its differences.

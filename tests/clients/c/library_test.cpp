@@ -134,7 +134,7 @@ TEST_F(SharedRequests, HaveTheNumbersOfTheCommandLine) {
     }
     ++compared;
   }
-  EXPECT_EQ(compared, 10);
+  EXPECT_EQ(compared, 11);
 }
 
 TEST_F(SharedRequests, TellMistakesByTheirPlaces) {
