@@ -117,22 +117,24 @@ void report_missing(const Analysis& analysis, const Level& level, Result& result
     const bool reached =
         std::find(result.not_reached.begin(), result.not_reached.end(), factor) == result.not_reached.end();
     if (!level.rows[row]) {
-      if (reached)
+      if (reached) {
         fail(result, "no_linear_vibration",
              "one-sided supports touch without pressure at load factor " + number(factor) +
                  ": they act in one direction of the smallest motion and not in the other, so that no "
                  "frequency exists");
+      }
       continue;
     }
     const NaturalMotions& found = *level.rows[row];
-    if (static_cast<int>(found.squares.size()) < analysis.modes)
+    if (static_cast<int>(found.squares.size()) < analysis.modes) {
       fail(result, "fewer_modes",
            "the structure has only " + std::to_string(found.squares.size()) +
                " natural motions on its mesh; " + std::to_string(analysis.modes) + " were asked for");
-    else if (!found.complete || !found.converged)
+    } else if (!found.complete || !found.converged) {
       fail(result, "no_convergence",
            "the natural motions at load factor " + number(factor) +
                (found.complete ? " did not converge" : " are not all found, by an inertia count"));
+    }
   }
 }
 

@@ -52,7 +52,7 @@ double amount(const FollowerEnd& end, const LoadFactors& factors) {
   return factors.proportional * end.proportional + factors.constant * end.constant;
 }
 
-void add_at(const FollowerForce& force, double factor, const Vec2& amount, Eigen::Ref<VectorXd> out) {
+void add_at(const FollowerForce& force, double factor, const Vec2& amount, Eigen::Ref<VectorXd>& out) {
   for (const FollowerForce::Term& term : force.terms) {
     out[term.x] += factor * term.weight * amount[0];
     out[term.y] += factor * term.weight * amount[1];

@@ -228,7 +228,7 @@ double factorise_below(ShiftedInverse& inverse, double shift) {
 /// Whether an inertia count finds as many eigenvalues as the search, just above the last of them.
 /// @param shift of the search, by whose size eigenvalues are told apart
 bool is_complete(ShiftedInverse& inverse, double shift, const NaturalMotions& found) {
-  std::size_t n = found.squares.size();
+  const std::size_t n = found.squares.size();
   const auto at = [&](std::size_t i) { return found.squares[i].real(); };
   const double above = at(n - 1) + SearchLimits::gap * (std::abs(at(n - 1)) + std::abs(shift));
   return inverse.factorise(above) == static_cast<int>(n);
