@@ -92,9 +92,10 @@ class Database:
             self._run("pg_ctl", "-D", self.folder / "data", "-m", "immediate", "-w", "stop", check=False)
 
     def query(self, sql):
-        """Rows as lists of texts."""
-        out = subprocess.run([POSTGRESQL / "psql", "-h", self.folder, "-p", str(self.port), "-U", "snapthrough", "-AtF", "\t",
-                              "-c", sql, "snapthrough"], capture_output=True, text=True, check=True).stdout
+        """Rows as lists of texts. The statement goes through standard input: arguments are limited to 128 kB."""
+        out = subprocess.run([POSTGRESQL / "psql", "-h", self.folder, "-p", str(self.port), "-U", "snapthrough", "-AtqF", "\t",
+                              "-v", "ON_ERROR_STOP=1", "snapthrough"], input=sql, capture_output=True, text=True,
+                             check=True).stdout
         return [line.split("\t") for line in out.splitlines()]
 
     def location(self, host="127.0.0.1"):
