@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace snapthrough {
@@ -57,14 +58,18 @@ SymmetricEigen generalised_symmetric_eigen(const MatrixXd& A, const MatrixXd& B)
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-RealEigen real_eigen(const MatrixXd& A) {
+ComplexEigen complex_eigen(const MatrixXd& A) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const Eigen::EigenSolver<MatrixXd> solver(A);
-  return {solver.eigenvalues().real(), solver.eigenvectors().real()};
+  if (solver.info() != Eigen::Success)
+    return {Eigen::VectorXcd::Constant(A.rows(), kNone),
+            Eigen::MatrixXcd::Constant(A.rows(), A.cols(), kNone)};
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-ComplexEigen complex_eigen(const MatrixXd& A) {
-  const Eigen::EigenSolver<MatrixXd> solver(A);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+RealEigen real_eigen(const MatrixXd& A) {
+  const ComplexEigen found = complex_eigen(A);
+  return {found.values.real(), found.vectors.real()};
 }
 
 MatrixXd inverse(const MatrixXd& A) {

@@ -31,7 +31,8 @@ struct RealEigen {
   Eigen::MatrixXd vectors;
 };
 
-/// @brief A x = v x for a square A whose eigenvalues are real but for rounding.
+/// @brief A x = v x for a square A whose eigenvalues are real but for rounding. All are NaN where A has
+/// entries that are not finite, or the iteration fails.
 [[nodiscard]] RealEigen real_eigen(const Eigen::MatrixXd& A);
 
 /// Eigenvalues, unsorted, and an eigenvector for each in the columns.
@@ -40,7 +41,7 @@ struct ComplexEigen {
   Eigen::MatrixXcd vectors;
 };
 
-/// @brief A x = v x for a square A.
+/// @brief A x = v x for a square A. All are NaN as of real_eigen().
 [[nodiscard]] ComplexEigen complex_eigen(const Eigen::MatrixXd& A);
 
 /// @brief A^-1 by LU factors with row pivoting; not finite when A is singular.
