@@ -231,6 +231,20 @@ void check_labels(const SweepParameter& parameter, const Value& label) {
   }
 }
 
+/// Whether a force of the model or of its load cases turns with its place or stays on a line.
+bool has_following_force(const Json& owner) {
+  const Json none = Json::object();
+  const auto follows = [](const Json& one) {
+    return one.is_object() && (one.value("follows", Json()) == true ||
+                               one.value("fixed_line", Json()) == true || has_following_force(one));
+  };
+  const auto any_in = [&](const char* list) {
+    const Json items = owner.value(list, none);
+    return std::any_of(items.begin(), items.end(), follows);
+  };
+  return any_in("loads") || any_in("load_cases");
+}
+
 void check_follow(const SweepData& data, const Value& follow) {
   if (data.design != SweepDesign::grid) {
     follow.report("not_supported", "a critical point is followed in a grid only");
@@ -257,6 +271,12 @@ void check_follow(const SweepData& data, const Value& follow) {
   };
   if (std::any_of(imperfections.begin(), imperfections.end(), is_worst)) {
     follow.report("not_supported", "a worst imperfection is sought at each point anew: nothing is followed");
+  }
+  if (model.is_object() && has_following_force(model)) {
+    follow.report("not_supported",
+                  "forces that follow the structure or stay on a line may make it flutter, and a followed "
+                  "curve knows no flutter: "
+                  "leave follow out");
   }
   for (const SweepOutput& output : data.outputs) {
     if (!is_output_of_curve(output, data.followed.locus)) {

@@ -40,6 +40,7 @@ static Load read_point_load(Object& in) {
   in.optional("moment", load.moment);
   in.optional("pattern", load.pattern);
   in.optional("follows", load.follows);
+  in.optional("fixed_line", load.fixed_line);
   return load;
 }
 

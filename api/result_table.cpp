@@ -23,11 +23,10 @@ using Json = nlohmann::json;
 
 constexpr const char* kLineEnd = "\r\n";
 /// All but the first are also the members of a result that have what they need.
-constexpr Named<ResultTable> kResultTables[] = {{"points", ResultTable::points},
-                                                {"critical_points", ResultTable::critical_points},
-                                                {"static", ResultTable::static_rows},
-                                                {"buckling", ResultTable::buckling},
-                                                {"states", ResultTable::states}};
+constexpr Named<ResultTable> kResultTables[] = {
+    {"points", ResultTable::points},         {"critical_points", ResultTable::critical_points},
+    {"static", ResultTable::static_rows},    {"buckling", ResultTable::buckling},
+    {"vibrations", ResultTable::vibrations}, {"states", ResultTable::states}};
 
 void append(std::string& text, double value) {
   std::array<char, 40> digits{};
@@ -59,6 +58,14 @@ void append_value(std::string& text, const std::vector<NamedSeries>& all, const 
       std::find_if(all.begin(), all.end(), [&](const NamedSeries& one) { return one.id == id; });
   if (series != all.end() && point < series->values.size()) {
     append(text, series->values[point]);
+  }
+}
+
+/// Appends so many fields, the last ones empty where there are fewer values.
+void append_padded(std::string& text, const std::vector<double>& values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    text += ',';
+    if (i < values.size()) append(text, values[i]);
   }
 }
 
@@ -207,6 +214,14 @@ std::string critical_points_csv(const Json& result) {
   return rows.take();
 }
 
+/// Names of the columns of frequencies.
+std::vector<std::string> frequency_columns(std::size_t squares, std::size_t imaginary) {
+  std::vector<std::string> out;
+  for (std::size_t i = 1; i <= squares; ++i) out.push_back("omega_squared:" + std::to_string(i));
+  for (std::size_t i = 1; i <= imaginary; ++i) out.push_back("imaginary:" + std::to_string(i));
+  return out;
+}
+
 std::string static_csv(const Json& result) {
   const std::vector<std::string> fields = columns_of<StaticTable>();
   const Json& table = member(result, "static");
@@ -217,11 +232,22 @@ std::string static_csv(const Json& result) {
   for (const auto& [field, id] : columns_by_id<StaticTable>({&table, 1}, rows)) {
     series.push_back(&member(member(table, field), id));
   }
+  const Json& frequencies = member(table, "frequencies");
+  std::size_t squares = 0;
+  std::size_t imaginary = 0;
+  for (const Json& one : elements(frequencies)) {
+    squares = std::max(squares, member(one, "omega_squared").size());
+    imaginary = std::max(imaginary, member(one, "imaginary").size());
+  }
+  for (std::string& name : frequency_columns(squares, imaginary)) rows.add_column(std::move(name));
   rows.begin();
   for (std::size_t i = 0; i < member(table, "load_factor").size(); ++i) {
     for (const Json* one : series) {
       rows.field(element(*one, i));
     }
+    const Json& here = element(frequencies, i);
+    for (std::size_t k = 0; k < squares; ++k) rows.field(element(member(here, "omega_squared"), k));
+    for (std::size_t k = 0; k < imaginary; ++k) rows.field(element(member(here, "imaginary"), k));
     rows.end_row();
   }
   return rows.take();
@@ -234,6 +260,22 @@ std::string buckling_csv(const Json& result) {
   const Json& loads = member(buckling, "load_factors");
   for (std::size_t i = 0; i < loads.size(); ++i) {
     rows.field(i + 1).field(loads[i]).field(element(member(buckling, "error_estimates"), i)).end_row();
+  }
+  return rows.take();
+}
+
+std::string vibrations_csv(const Json& result) {
+  Rows rows({"load_factor", "mode", "omega_squared", "imaginary", "error_estimate"});
+  rows.begin();
+  for (const Json& vibration : elements(member(result, "vibrations"))) {
+    const Json& frequencies = member(vibration, "frequencies");
+    const Json& squares = member(frequencies, "omega_squared");
+    const Json& imaginary = member(frequencies, "imaginary");
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      rows.field(member(vibration, "load_factor")).field(i + 1).field(squares[i]);
+      rows.field(imaginary.is_null() ? Json(0.0) : element(imaginary, i));
+      rows.field(element(member(vibration, "error_estimates"), i)).end_row();
+    }
   }
   return rows.take();
 }
@@ -288,6 +330,8 @@ std::span<const ResultTable> tables_of(std::string_view analysis_type) {
   static constexpr std::array kCritical{ResultTable::critical_points, ResultTable::states};
   static constexpr std::array kStatic{ResultTable::static_rows, ResultTable::states};
   static constexpr std::array kBuckling{ResultTable::buckling};
+  static constexpr std::array kVibration{ResultTable::vibrations, ResultTable::static_rows,
+                                         ResultTable::states};
   const std::optional<AnalysisType> type = value_of(kAnalysisTypes, analysis_type);
   if (!type) {
     return {};
@@ -302,7 +346,7 @@ std::span<const ResultTable> tables_of(std::string_view analysis_type) {
     case AnalysisType::buckling:
       return kBuckling;
     case AnalysisType::vibration:
-      return kStatic;
+      return kVibration;
   }
   return {};
 }
@@ -328,6 +372,12 @@ PointsTable::PointsTable(std::vector<Branch> branches) : branches_(std::move(bra
       }
     }
   });
+  for (const Branch& branch : branches_) {
+    for (const auto& point : branch.frequencies) {
+      squares_ = std::max(squares_, point ? point->squares.size() : 0);
+      imaginary_ = std::max(imaginary_, point ? point->imaginary.size() : 0);
+    }
+  }
 }
 
 void PointsTable::append_head(std::string& csv) const {
@@ -336,6 +386,7 @@ void PointsTable::append_head(std::string& csv) const {
   for (const auto& [field, id] : by_id_) {
     append_csv_text(csv += ',', column_name(field, id));
   }
+  for (const std::string& name : frequency_columns(squares_, imaginary_)) csv.append(1, ',').append(name);
   csv += kLineEnd;
 }
 
@@ -356,6 +407,10 @@ void PointsTable::append_row(const Branch& branch, std::size_t point, std::strin
       }
     });
   }
+  const bool known = point < branch.frequencies.size() && branch.frequencies[point];
+  const Frequencies here = known ? *branch.frequencies[point] : Frequencies();
+  append_padded(csv, here.squares, squares_);
+  append_padded(csv, here.imaginary, imaginary_);
   csv += kLineEnd;
 }
 
@@ -378,7 +433,7 @@ bool PointsTable::append_rows(std::string& csv, std::size_t bytes) {
 std::size_t PointsTable::held_bytes() const {
   std::size_t numbers = 0;
   for (const Branch& branch : branches_) {
-    numbers += branch.load_factor.size() * (5 + by_id_.size());
+    numbers += branch.load_factor.size() * (5 + by_id_.size() + squares_ + imaginary_);
   }
   return numbers * sizeof(double);
 }
@@ -418,6 +473,8 @@ std::string result_csv(const Json& result, ResultTable table) {
       return static_csv(result);
     case ResultTable::buckling:
       return buckling_csv(result);
+    case ResultTable::vibrations:
+      return vibrations_csv(result);
     case ResultTable::states:
       return states_csv(result);
     case ResultTable::points:

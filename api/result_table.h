@@ -23,10 +23,12 @@ enum class ResultTable {
   critical_points,  ///< critical points of all paths
   static_rows,      ///< the load factors of a static analysis
   buckling,         ///< buckling load factors
+  vibrations,       ///< one row for each motion at each load factor
   states            ///< one row for each output point of each member in each reported state
 };
 
-/// The table of that name ("points", "critical_points", "static", "buckling", "states"), or nothing.
+/// The table of that name ("points", "critical_points", "static", "buckling", "vibrations", "states"), or
+/// nothing.
 [[nodiscard]] std::optional<ResultTable> result_table_from(std::string_view name);
 
 /// @brief The tables that results of an analysis of this type have, the one to give by default first.
@@ -39,7 +41,8 @@ enum class ResultTable {
 /// @brief The points of all paths, one a row, under a header line.
 ///
 /// Columns: branch, point, the lists of a branch (api/result_fields.h), one for each monitor (its id), one
-/// for each id of its other series ("contact_fraction:<id>").
+/// for each id of its other series ("contact_fraction:<id>"), and where there are frequencies
+/// "omega_squared:<number>" and, for loads without a potential, "imaginary:<number>".
 class PointsTable {
  public:
   explicit PointsTable(std::vector<Branch> branches);
@@ -54,6 +57,8 @@ class PointsTable {
 
   const std::vector<Branch> branches_;
   std::vector<std::pair<std::string, std::string>> by_id_;  ///< field and id of the columns by id
+  std::size_t squares_ = 0;                                 ///< largest number of frequencies of a point
+  std::size_t imaginary_ = 0;                               ///< likewise of imaginary parts
   bool begun_ = false;
   std::size_t branch_ = 0;  ///< index of the next row's branch
   std::size_t point_ = 0;
@@ -63,8 +68,9 @@ class PointsTable {
 ///
 /// Columns are the numbers and texts of the table of fields (api/result_fields.h) in its order, then one for
 /// each monitor (its id) and for each id of other fields ("field:<id>"). critical_points: CriticalPoint.
-/// static: StaticTable. buckling: mode (from 1), load_factor, error_estimate. states: state, branch,
-/// load_factor, member, then MemberState.
+/// static: StaticTable, then frequencies as in PointsTable. buckling: mode (from 1), load_factor,
+/// error_estimate. vibrations: load_factor, mode (from 1), omega_squared, imaginary, error_estimate. states:
+/// state, branch, load_factor, member, then MemberState.
 /// @pre table is not points (see PointsTable)
 [[nodiscard]] std::string result_csv(const nlohmann::json& result, ResultTable table);
 

@@ -2,6 +2,8 @@
 /// outside.
 ///
 ///   bench_probe CASE ACCURACY TIMES       a case of bench/cases.h
+///   bench_probe path:CASE ACCURACY TIMES          forty steps of its path, with masses
+///   bench_probe frequencies:CASE ACCURACY TIMES   the same with three frequencies at each point
 ///   bench_probe grow:PART SIZE TIMES      four steps of growing_case(PART, SIZE) of bench/cases.h
 ///
 /// Prints the unknowns, the factorisations, the relative error (case) and the peak of the resident memory in
@@ -16,21 +18,37 @@
 #include "bench/cases.h"
 #include "solver/solve.h"
 
+namespace {
+
+using namespace snapthrough;
+
+/// The case that a name on the command line stands for. @param argument accuracy, or size of what grows
+bench::Case case_of(const std::string& name, const char* argument) {
+  const std::size_t colon = name.find(':');
+  const std::string kind = colon == std::string::npos ? "" : name.substr(0, colon);
+  if (kind == "grow") return bench::growing_case(name.substr(colon + 1), std::atoi(argument));
+  bench::Case out = bench::case_named(colon == std::string::npos ? name : name.substr(colon + 1));
+  out.analysis.discretization.accuracy = std::atof(argument);
+  if (kind.empty()) return out;
+  for (Section& section : out.model.sections) section.mass = 1.0;
+  out.analysis.type = AnalysisType::path;
+  out.analysis.stop.steps = 40;
+  out.analysis.output.frequencies = kind == "frequencies" ? 3 : 0;
+  return out;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace snapthrough;
   if (argc != 4) {
-    std::fprintf(stderr, "usage: bench_probe CASE ACCURACY TIMES | grow:PART SIZE TIMES\n");
+    std::fprintf(stderr,
+                 "usage: bench_probe [path:|frequencies:]CASE ACCURACY TIMES | grow:PART SIZE TIMES\n");
     return 2;
   }
-  const std::string name = argv[1];
-  const std::string grow = "grow:";
-  const bool growing = name.rfind(grow, 0) == 0;
-  bench::Case c =
-      growing ? bench::growing_case(name.substr(grow.size()), std::atoi(argv[2])) : bench::case_named(name);
-  if (!growing) c.analysis.discretization.accuracy = std::atof(argv[2]);
+  const bench::Case c = case_of(argv[1], argv[2]);
   Result result;
   for (int i = 0; i < std::atoi(argv[3]); ++i) result = solve(c.model, c.analysis);
-  const double error = growing || result.critical_points.empty()
+  const double error = c.load == 0.0 || result.critical_points.empty()
                            ? 0.0
                            : result.critical_points.back().load_factor / c.load - 1.0;
   rusage usage{};

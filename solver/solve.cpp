@@ -38,8 +38,7 @@ void report_stop(const Hooks& hooks, Result& result) {
 
 /// Load factors with requested states or rows.
 std::vector<double> asked_load_factors(const Analysis& analysis) {
-  if (analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::vibration)
-    return analysis.load_factors;
+  if (has_rows(analysis.type)) return analysis.load_factors;
   if (analysis.type == AnalysisType::buckling) return {};
   return analysis.output.at_load_factors;
 }

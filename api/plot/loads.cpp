@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -83,15 +84,26 @@ Point turned(const Point& force, const Place& place) {
   return {cosine * force.x - sine * force.y, sine * force.x + cosine * force.y};
 }
 
+/// The place nearest to a displaced one on the line of a force through the undeformed one.
+Point foot_on_line(const Place& place, const Point& force) {
+  const Point moved{place.moved.x - place.still.x, place.moved.y - place.still.y};
+  const double share = (moved.x * force.x + moved.y * force.y) / (force.x * force.x + force.y * force.y);
+  return {place.still.x + share * force.x, place.still.y + share * force.y};
+}
+
 void point_arrow(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
   const std::optional<Place> place = place_of(all.scene, load.at);
   if (!place) {
     return;
   }
-  const Pixel tip = to_pixel(all.view, place->moved);
+  const Pixel at = to_pixel(all.view, place->moved);
   const Point force = load.follows ? turned(load.force, *place) : load.force;
   const double size = std::hypot(force.x, force.y);
   if (size > 0) {
+    const Pixel tip = load.fixed_line ? to_pixel(all.view, foot_on_line(*place, load.force)) : at;
+    if (load.fixed_line) {
+      arrows.lines += path_data(std::array{at, tip});
+    }
     const double ux = all.sense(load) * force.x / size;
     const double uy = -all.sense(load) * force.y / size;
     const double length = kPointArrow * std::max(0.45, size / all.largest_point);
@@ -100,8 +112,8 @@ void point_arrow(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
     arrows.notes.push_back({tail, all.text(std::abs(all.factor(load)) * size, Quantity::force), size});
   }
   if (load.moment != 0) {
-    add_moment(tip, load.moment * all.sense(load) > 0, arrows);
-    arrows.notes.push_back({{tip.x + 14, tip.y - 14},
+    add_moment(at, load.moment * all.sense(load) > 0, arrows);
+    arrows.notes.push_back({{at.x + 14, at.y - 14},
                             all.text(std::abs(all.factor(load) * load.moment), Quantity::moment),
                             std::abs(load.moment)});
   }

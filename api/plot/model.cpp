@@ -205,6 +205,8 @@ ModelLoad read_load(const Field& field) {
     load.moment = number_or(field, "moment", 0);
     const std::optional<Field> follows = field.find("follows");
     load.follows = follows && follows->flag();
+    const std::optional<Field> fixed_line = field.find("fixed_line");
+    load.fixed_line = fixed_line && fixed_line->flag();
     return load;
   }
   if (type == "self_weight") {

@@ -64,9 +64,10 @@ struct ModelFoundation {
 struct ModelLoad {
   enum class Type { point, distributed, pressure, initial_strain, temperature, self_weight };
   Type type = Type::point;
-  Location at;           ///< location of a point load; other loads: only its member is set
-  Point force;           ///< force of a point load; per length for a distributed one
-  bool follows = false;  ///< a point load turns with its place
+  Location at;              ///< location of a point load; other loads: only its member is set
+  Point force;              ///< force of a point load; per length for a distributed one
+  bool follows = false;     ///< a point load turns with its place
+  bool fixed_line = false;  ///< a point load stays on its line
   double moment = 0;
   double value = 0;  ///< pressure, positive when it pushes from `side`
   double side = 1;   ///< pressure acts on the left (1) or right (-1) side

@@ -75,7 +75,7 @@ CLI::App* add_solve_command(CLI::App& app, Arguments& arguments) {
   command->add_flag("--csv", arguments.csv, "A table of the result instead of JSON");
   command
       ->add_option("--table", arguments.table, "Which table, as CSV; by default that of the type of analysis")
-      ->check(CLI::IsMember({"points", "critical_points", "static", "buckling", "states"}));
+      ->check(CLI::IsMember({"points", "critical_points", "static", "buckling", "vibrations", "states"}));
   return command;
 }
 

@@ -70,7 +70,7 @@ void add_fetch_command(CLI::App& app, RemoteArguments& arguments) {
   command
       ->add_option("--table", arguments.fetch.table,
                    "Of a job: which table, as CSV; by default that of the type of analysis")
-      ->check(CLI::IsMember({"points", "critical_points", "static", "buckling", "states"}));
+      ->check(CLI::IsMember({"points", "critical_points", "static", "buckling", "vibrations", "states"}));
   command->add_option("-o,--output", arguments.fetch.output, "File to write instead of standard output");
   command->callback([&arguments] {
     arguments.action = [&arguments](const Streams& streams) {

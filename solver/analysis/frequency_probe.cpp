@@ -4,26 +4,36 @@
 #include <cmath>
 
 namespace snapthrough {
+namespace {
 
-FrequencyProbe::FrequencyProbe(const Structure& structure, const Model& model, int count, bool counted)
+/// Relative error of the frequencies of rows, beside that of the mesh.
+constexpr double kOnGivenMesh = 1e-9;
+constexpr double kMost = 1e-6;
+constexpr double kOverAccuracy = 1e-3;
+
+}  // namespace
+
+FrequencyProbe::FrequencyProbe(const Structure& structure, const Model& model, const Analysis& analysis)
     : structure_(structure), problem_(structure), masses_(make_mass_matrix(structure, model)) {
-  search_.count = count;
-  search_.counted = counted;
+  const Discretization& mesh = analysis.discretization;
+  search_.counted = analysis.type == AnalysisType::vibration;
+  search_.count = search_.counted ? analysis.modes : analysis.output.frequencies;
+  if (search_.counted) return;
+  search_.tolerance = mesh.fixed_mesh ? kOnGivenMesh : std::min(kMost, kOverAccuracy * mesh.accuracy);
 }
 
 std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, double lambda) {
   if (structure_.one_sided && has_any(problem_.marks_at(y))) return std::nullopt;
-  NaturalMotions found = natural_motions(structure_, problem_, masses_, y, lambda, search_);
-  search_.near = found.motions;
-  for (const auto& square : found.squares) search_.scale = std::max(search_.scale, std::abs(square));
+  NaturalMotions found = natural_motions(structure_, problem_, masses_, y, lambda, search_, columns_);
+  search_.begin_with(found);
   return found;
 }
 
-Frequencies FrequencyProbe::in_units(const NaturalMotions& motions) const {
+Frequencies in_units(const NaturalMotions& motions, const Structure& structure, double unit) {
   Frequencies out;
   for (const auto& square : motions.squares) {
-    out.squares.push_back(square.real() * masses_.square);
-    if (problem_.is_unsymmetric()) out.imaginary.push_back(square.imag() * masses_.square);
+    out.squares.push_back(square.real() * unit);
+    if (structure.unsymmetric()) out.imaginary.push_back(square.imag() * unit);
   }
   return out;
 }

@@ -12,20 +12,25 @@
 
 namespace snapthrough {
 
+/// Eigenvalues in the model's units. @param unit omega^2 of the scaled eigenvalue one
+[[nodiscard]] Frequencies in_units(const NaturalMotions& motions, const Structure& structure, double unit);
+
 /// Finds the lowest natural motions of one state after another; each search begins with the motions before.
 class FrequencyProbe {
  public:
   /// @param structure kept by reference; must outlive this object
-  /// @param count number of frequencies
-  /// @param counted whether inertia counts confirm each state, as in MotionSearch
+  /// @param analysis of type vibration: every state is confirmed by an inertia count; of another type: how
+  /// many frequencies its rows have, to a thousandth of its accuracy
   /// @pre has_mass(model)
-  FrequencyProbe(const Structure& structure, const Model& model, int count, bool counted);
+  FrequencyProbe(const Structure& structure, const Model& model, const Analysis& analysis);
 
   /// @param y, lambda scaled unknowns and load factor of an equilibrium
   /// @return empty: one-sided supports touch without pressure, so that small vibrations are not linear
   [[nodiscard]] std::optional<NaturalMotions> at(const Eigen::VectorXd& y, double lambda);
   /// Eigenvalues in the model's units.
-  [[nodiscard]] Frequencies in_units(const NaturalMotions& motions) const;
+  [[nodiscard]] Frequencies in_units(const NaturalMotions& motions) const {
+    return snapthrough::in_units(motions, structure_, unit());
+  }
   /// omega^2 of the scaled eigenvalue one, in the model's units.
   [[nodiscard]] double unit() const { return masses_.square; }
   [[nodiscard]] double scale() const { return masses_.scale; }
@@ -35,6 +40,7 @@ class FrequencyProbe {
   StructuralProblem problem_;
   MassMatrix masses_;
   MotionSearch search_;
+  KrylovColumns columns_;
 };
 
 }  // namespace snapthrough

@@ -50,8 +50,7 @@ HeldLoads held_loads(const Model& model, const Analysis& analysis, const Unilate
     out.factors.assign(analysis.load_factors.size(), 1);
     return out;
   }
-  if (analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::vibration)
-    return held_factors(model, analysis, balance);
+  if (has_rows(analysis.type)) return held_factors(model, analysis, balance);
   const bool buckling = analysis.type == AnalysisType::buckling;
   std::optional<Escape> escape = balance.escape_at_start(buckling ? 1.0 : analysis.step.direction);
   std::string loads = escape ? first_loads(*escape) : "";

@@ -35,7 +35,7 @@ class Recorder final : public PathObserver {
         observer_(model, analysis, structure),
         reached_(analysis.output.at_load_factors.size(), 0) {
     if (analysis.output.frequencies > 0 && analysis.type == AnalysisType::path)
-      probe_.emplace(structure, model, analysis.output.frequencies, false);
+      probe_.emplace(structure, model, analysis);
   }
 
   /// What a path reports is recorded under `branch` from now on. To be called before each path.

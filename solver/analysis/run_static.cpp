@@ -46,7 +46,7 @@ class StaticRows {
         observer_(model, analysis, structure),
         state_loads_(analysis.output.at_load_factors.begin(), analysis.output.at_load_factors.end()),
         rows_(analysis.load_factors.size()) {
-    if (analysis.output.frequencies > 0) probe_.emplace(structure, model, analysis.output.frequencies, false);
+    if (analysis.output.frequencies > 0) probe_.emplace(structure, model, analysis);
   }
 
   /// @param negative number of negative eigenvalues of the tangent at y

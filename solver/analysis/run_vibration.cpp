@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,7 +40,7 @@ Level solve_on(const Model& model, const Analysis& analysis, std::shared_ptr<con
   out.structure = std::move(structure);
   out.rows.resize(analysis.load_factors.size());
   out.result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
-  FrequencyProbe probe(*out.structure, model, analysis.modes, true);
+  FrequencyProbe probe(*out.structure, model, analysis);
   out.unit = probe.unit();
   out.scale = probe.scale();
   Analysis states = analysis;
@@ -77,7 +78,7 @@ bool compare(const Level& coarse, const Level& fine, double accuracy,
     for (const auto& square : b) largest = std::max(largest, std::abs(square));
     errors[row].resize(a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-      // differences of values moved by the size of the vibration keep their meaning at zero
+      // relative to a size that is not zero where the eigenvalue is
       const double size = std::max(std::abs(b[i]), VibrationLimits::zero * largest);
       const double relative = errors[row][i].differences.add(size + std::abs(a[i] - b[i]), size);
       errors[row][i].error = relative * size;
@@ -92,20 +93,17 @@ Vibration vibration_at(const Model& model, const Analysis& analysis, const Level
   const NaturalMotions& motions = *level.rows[row];
   Vibration out;
   out.load_factor = analysis.load_factors[row];
-  bool unsymmetric = false;
-  for (const auto& square : motions.squares) {
-    out.frequencies.squares.push_back(square.real() * level.unit);
-    out.frequencies.imaginary.push_back(square.imag() * level.unit);
-    unsymmetric = unsymmetric || square.imag() != 0.0;
-  }
-  if (!unsymmetric) out.frequencies.imaginary.clear();
+  out.frequencies = in_units(motions, *level.structure, level.unit);
   for (std::size_t i = 0; i < motions.squares.size(); ++i) {
     out.error_estimates.push_back(
         i < errors.size() && errors[i].error ? std::optional(*errors[i].error * level.unit) : std::nullopt);
     out.modes.push_back(mode_displacements(*level.structure, model,
                                            motions.motions.col(static_cast<Eigen::Index>(i)),
                                            analysis.output.points_per_member));
-    scale_to_largest(out.modes.back());
+    // the second part of a conjugate pair completes its motion
+    const double imaginary = motions.squares[i].imag();
+    if (imaginary > 0.0) scale_to_largest(std::span(out.modes).last(2));
+    if (imaginary == 0.0) scale_to_largest(out.modes.back());
   }
   return out;
 }

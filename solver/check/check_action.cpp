@@ -224,16 +224,21 @@ void check_moments(const LoadPlaces& places, const Model& data) {
   }
 }
 
-/// Reports following forces on nodes that have no rotation.
+/// Reports forces that are not dead and whose place has no rotation, or that both turn and keep their line.
 void check_following(const LoadPlaces& places, const Model& data) {
   const auto free = nodes_free_to_turn(data);
   for (std::size_t i = 0; i < data.loads.size(); ++i) {
     const auto* load = std::get_if<PointLoad>(&data.loads[i]);
-    if (load == nullptr || !load->follows || !free.contains(load->at.node)) continue;
-    (places.of(i) / "follows")
-        .report("needs_member",
-                "node " + in_quotes(load->at.node) + " has no rotation that the force could follow: " +
-                    members_at(data, load->at.node) + " hinged there; it needs a location on a member here");
+    if (load == nullptr || is_dead(*load)) continue;
+    const Place field = places.of(i) / (load->fixed_line ? "fixed_line" : "follows");
+    if (load->follows && load->fixed_line)
+      field.report("not_supported",
+                   "a force that follows its place does not stay on one line: give one of the two");
+    if (!free.contains(load->at.node)) continue;
+    field.report("needs_member",
+                 "node " + in_quotes(load->at.node) + " has no rotation that the force could " +
+                     (load->fixed_line ? "act on" : "follow") + ": " + members_at(data, load->at.node) +
+                     " hinged there; it needs a location on a member here");
   }
 }
 
@@ -262,7 +267,7 @@ void check_something_proportional(const Place& model, const Model& data, const A
   };
   const bool something = some_grow(data.loads) || some_grow(data.supports) || some_grow(data.springs) ||
                          some_grow(data.foundations);
-  if (!something && analysis.type != AnalysisType::static_ && analysis.type != AnalysisType::vibration) {
+  if (!something && !has_rows(analysis.type)) {
     (model / "loads")
         .report("no_load",
                 "nothing grows with the load factor: at least one proportional load or "

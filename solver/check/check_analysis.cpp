@@ -58,17 +58,12 @@ void check_fixed_mesh(const Place& place, const Model& model, const Discretizati
   require_between(place / "order", mesh.order, 1, kMaxOrder);
 }
 
-bool has_one_sided_layer(const Model& model) {
-  return std::any_of(model.foundations.begin(), model.foundations.end(), [](const Foundation& foundation) {
-    return foundation.shear_stiffness > 0.0 && foundation.reaction != Reaction::bilateral;
-  });
-}
-
 void check_discretization(const Place& place, const Model& model, const Discretization& mesh,
                           const Names& names) {
   if (mesh.fixed_mesh) {
     check_fixed_mesh(place, model, mesh, names);
-    if (mesh.foundation == FoundationRule::lumped && has_one_sided_layer(model)) {
+    if (mesh.foundation == FoundationRule::lumped &&
+        std::ranges::any_of(model.foundations, has_one_sided_layer)) {
       (place / "foundation")
           .report("not_supported", "a one-sided foundation with a shear layer is not lumped: use consistent");
     }
@@ -211,7 +206,7 @@ void check_output(const Place& place, const Model& model, const OutputOptions& o
 }
 
 /// Reports frequencies that are asked for without masses, or where no analysis gives them.
-void check_frequencies(const Place& root, const Model& model, const Analysis& analysis) {
+void check_frequencies(const Place& root, const Model& model, const Analysis& analysis, const Names& names) {
   const Place asked = root / "analysis" / "output" / "frequencies";
   const bool vibrates = analysis.type == AnalysisType::vibration;
   if (!require_between(asked, analysis.output.frequencies, 0, kMaxFrequencies)) return;
@@ -226,9 +221,9 @@ void check_frequencies(const Place& root, const Model& model, const Analysis& an
                 "frequencies need masses: give sections a mass or a density, or give point masses");
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const Member& member = model.members[i];
-    const auto section = std::find_if(model.sections.begin(), model.sections.end(),
-                                      [&](const Section& one) { return one.id == member.section; });
-    if (is_rod(member) && section != model.sections.end() && section->mass && section->mass->largest() > 0.0)
+    if (!is_rod(member) || !names.sections.contains(member.section)) continue;
+    const Section& section = model.sections[names.sections.index(member.section)];
+    if (section.mass && section.mass->largest() > 0.0)
       (root / "model" / "members" / i / "section")
           .report("unsupported",
                   "a one-sided member has no mass in vibrations: give it a section without mass, and its "
@@ -236,22 +231,21 @@ void check_frequencies(const Place& root, const Model& model, const Analysis& an
   }
 }
 
-/// Reports following forces where buckling is linearised, whose loads then need not be real.
+/// Reports forces that are not dead where buckling is linearised, whose loads then need not be real.
 void check_linearised(const Place& root, const Model& model, const Analysis& analysis) {
   const bool follows = std::any_of(model.loads.begin(), model.loads.end(), [](const Load& load) {
     const auto* point = std::get_if<PointLoad>(&load);
-    return point != nullptr && point->follows;
+    return point != nullptr && !is_dead(*point);
   });
   if (!follows) return;
   if (analysis.type == AnalysisType::buckling)
     (root / "analysis" / "type")
         .report("unsupported",
-                "linearised buckling needs loads that keep their direction; type critical takes "
-                "forces that follow, and finds flutter where there are masses");
+                "linearised buckling needs dead loads; type critical takes forces that follow or keep "
+                "their line, and finds flutter where there are masses");
   for (std::size_t i = 0; i < model.imperfections.size(); ++i)
     if (std::holds_alternative<ModeImperfection>(model.imperfections[i]))
-      (root / "model" / "imperfections" / i)
-          .report("not_supported", "buckling modes need loads that keep their direction");
+      (root / "model" / "imperfections" / i).report("not_supported", "buckling modes need dead loads");
 }
 
 }  // namespace
@@ -278,7 +272,7 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   }
   check_output(place / "output", model, analysis.output);
   require_count(place / "sensitivities", analysis.sensitivities.size(), kMaxSensitivities);
-  check_frequencies(root, model, analysis);
+  check_frequencies(root, model, analysis, names);
   check_linearised(root, model, analysis);
   if (analysis.type == AnalysisType::static_ && analysis.output.states == StateOutput::at_load_factors) {
     check_static_states(place / "output" / "states" / "at_load_factors", analysis);

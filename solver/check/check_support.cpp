@@ -332,7 +332,7 @@ void check_foundations(const Place& model, const Model& data, const Names& names
       check_tangential(place, foundation);
     }
     if (require_not_negative(place / "shear_stiffness", foundation.shear_stiffness) &&
-        foundation.shear_stiffness > 0.0 && foundation.reaction != Reaction::bilateral) {
+        has_one_sided_layer(foundation)) {
       check_one_sided_layer(place / "shear_stiffness", foundation);
     } else if (foundation.ground_end != GroundEnd::free) {
       (place / "ground_end")

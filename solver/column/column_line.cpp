@@ -340,7 +340,7 @@ bool LineReader::add_foundations() {
 }
 
 bool LineReader::add_point_load(const PointLoad& load) {
-  if (load.moment != 0.0 || load.follows) return false;
+  if (load.moment != 0.0 || !is_dead(load)) return false;
   if (load.force == Vec2{0.0, 0.0}) return true;
   if (way_of(load.force) != Way::along) return false;
   axial_.forces[joint_at(load.at)][load.pattern == Pattern::proportional ? 0 : 1] +=

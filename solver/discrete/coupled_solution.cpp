@@ -1,47 +1,30 @@
 #include "solver/discrete/coupled_solution.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "solver/numeric/dense.h"
 
 namespace snapthrough {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-VectorXd CoupledSolution::along(const Eigen::Ref<const VectorXd>& x) const {
-  VectorXd out(static_cast<Index>(couplings_.size()));
-  for (std::size_t i = 0; i < couplings_.size(); ++i)
-    out[static_cast<Index>(i)] = couplings_[i].value(x.data()) / std::sqrt(couplings_[i].compliance);
-  return out;
-}
-
-void CoupledSolution::prepare(std::span<const Coupling> couplings, Index size,
-                              const std::function<void(Eigen::Ref<MatrixXd>)>& solve) {
-  couplings_.assign(couplings.begin(), couplings.end());
+void CoupledSolution::prepare(std::span<const Coupling> couplings, Eigen::Index size,
+                              const std::function<void(Eigen::Ref<Eigen::MatrixXd>)>& solve) {
+  empty_ = couplings.empty();
   negative_ = 0;
   log_abs_det_ = 0.0;
-  if (couplings_.empty()) return;
-  const auto count = static_cast<Index>(couplings_.size());
-  W_.setZero(size, count);
-  for (Index i = 0; i < count; ++i) {
-    const Coupling& coupling = couplings_[static_cast<std::size_t>(i)];
-    coupling.push(1.0 / std::sqrt(coupling.compliance), W_.col(i).data());
+  if (empty_) return;
+  std::vector<SparseColumn> columns;
+  for (const Coupling& coupling : couplings) {
+    SparseColumn& column = columns.emplace_back(coupling.row);
+    for (auto& [row, value] : column) value /= std::sqrt(coupling.compliance);
   }
-  solve(W_);
-  MatrixXd M = MatrixXd::Identity(count, count);
-  for (Index i = 0; i < count; ++i) M.col(i) += along(W_.col(i));
-  M = symmetric_part(M);
-  for (const double value : symmetric_eigenvalues(M)) {
+  for (const double value :
+       symmetric_eigenvalues(symmetric_part(part_.prepare(columns, columns, size, solve)))) {
     if (value < 0.0) ++negative_;
     log_abs_det_ += std::log(std::max(std::abs(value), std::numeric_limits<double>::min()));
   }
-  inverse_ = inverse(M);
 }
-
-void CoupledSolution::correct(Eigen::Ref<VectorXd> x) const { x -= W_ * (inverse_ * along(x)); }
 
 }  // namespace snapthrough

@@ -1,14 +1,14 @@
 #pragma once
 /// @file
 /// Loads that follow the structure, beyond what elements know of them: the nonsymmetric part of the tangent
-/// of pressures, and point forces that turn with the section on which they act.
+/// of pressures, and point forces that turn with the section on which they act or stay on a line.
 
 #include <Eigen/Core>
 #include <array>
 #include <functional>
-#include <utility>
 #include <vector>
 
+#include "solver/discrete/low_rank.h"
 #include "solver/support/regime.h"
 
 namespace snapthrough {
@@ -29,8 +29,12 @@ struct FollowerEnd {
   double constant = 0.0;
 };
 
-/// @brief Force that turns with the rotation b of its place: R(b) F. The load vectors hold F; this adds
-/// (R(b) - 1) F, whose derivative by b has no counterpart that would make the tangent symmetric.
+/// @brief Point force whose action depends on the motion (u, v, b) of its place. The load vectors hold the
+/// dead force F; this adds the rest, whose derivative has no counterpart that would make the tangent
+/// symmetric.
+///
+/// A force that turns with its place adds the force (R(b) - 1) F. A force that stays on its line adds its
+/// moment about the place, which has moved away from the line: v F_x - u F_y.
 struct FollowerForce {
   /// Unknowns of x, y and rotation with one weight; displacement and rotation are their weighted sums.
   struct Term {
@@ -42,13 +46,13 @@ struct FollowerForce {
   std::vector<Term> terms;
   std::array<double, 2> proportional{};  ///< F per unit load factor
   std::array<double, 2> constant{};
+  bool fixed_line = false;  ///< stays on its line; else turns
 };
 
 /// @brief Converts solutions with the symmetric tangent S into solutions with J = S + L R^T, and adds what
 /// following forces do to residuals and products.
 ///
-/// L R^T has two columns for each FollowerEnd and one for each FollowerForce. Sherman-Morrison-Woodbury
-/// formula: J^-1 r = x - W (1 + R^T W)^-1 R^T x,  x = S^-1 r,  W = S^-1 L. Such loads have no potential;
+/// L R^T has two columns for each FollowerEnd and one for each FollowerForce. Such loads have no potential;
 /// without this part Newton's method converges slowly or not at all.
 class FollowerLoads {
  public:
@@ -64,7 +68,7 @@ class FollowerLoads {
   /// @brief Whether corrections are those of J^T, from the next prepare() on.
   void transpose(bool transposed) { transposed_ = transposed; }
   /// x := J^-1 r from x = S^-1 r.
-  void correct(Eigen::Ref<Eigen::VectorXd> x) const;
+  void correct(Eigen::Ref<Eigen::VectorXd> x) const { part_.correct(x); }
   /// Adds L R^T direction at the unknowns y to `out`.
   void add_product(const Eigen::VectorXd& y, const LoadFactors& factors,
                    const Eigen::Ref<const Eigen::VectorXd>& direction, Eigen::Ref<Eigen::VectorXd> out) const;
@@ -73,23 +77,14 @@ class FollowerLoads {
   void add_change(const Eigen::VectorXd& y, const LoadFactors& factors, const LoadFactors& rates,
                   const Eigen::VectorXd& along, const Eigen::Ref<const Eigen::VectorXd>& direction,
                   Eigen::Ref<Eigen::VectorXd> out) const;
-  /// Adds (R(b) - 1) F to a load vector.
+  /// Adds what the motion of their places changes in the forces to a load vector.
   void add_load(const Eigen::VectorXd& y, const LoadFactors& factors, Eigen::Ref<Eigen::VectorXd> out) const;
 
  private:
-  /// Column of L or R: weighted unknowns.
-  using Row = std::vector<std::pair<int, double>>;
-
-  void find_rows(const Eigen::VectorXd& y, const LoadFactors& factors);
-  [[nodiscard]] Eigen::VectorXd read(const Eigen::Ref<const Eigen::VectorXd>& x) const;
-
   const std::vector<FollowerEnd>& ends_;
   const std::vector<FollowerForce>& forces_;
-  std::vector<Row> left_;
-  std::vector<Row> right_;
   bool transposed_ = false;
-  Eigen::MatrixXd W_;
-  Eigen::MatrixXd inverse_;
+  LowRankPart part_;
 };
 
 }  // namespace snapthrough

@@ -35,7 +35,7 @@ LayerState layer_state(const Structure& structure, const Eigen::VectorXd& y, int
 std::vector<LayerState> layer_states(const Structure& structure, const Eigen::VectorXd& y) {
   std::vector<LayerState> out(structure.foundation_laws.size());
   for (std::size_t i = 0; i < out.size(); ++i)
-    if (has_layer(structure.foundation_laws[i])) out[i] = layer_state(structure, y, static_cast<int>(i));
+    if (structure.foundation_laws[i].has_layer()) out[i] = layer_state(structure, y, static_cast<int>(i));
   return out;
 }
 

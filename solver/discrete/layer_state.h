@@ -30,9 +30,4 @@ struct LayerState {
 /// States of all foundations, in the order of the model; without cells where a foundation has no such layer.
 [[nodiscard]] std::vector<LayerState> layer_states(const Structure& structure, const Eigen::VectorXd& y);
 
-/// Whether a foundation is one-sided and has a shear layer.
-[[nodiscard]] inline bool has_layer(const FoundationLaw& foundation) {
-  return foundation.law.one_sided && foundation.shear > 0.0;
-}
-
 }  // namespace snapthrough

@@ -12,6 +12,8 @@
 
 #include "solver/model/id_index.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/numeric/lanes.h"
+#include "solver/numeric/max_order.h"
 
 namespace snapthrough {
 namespace {
@@ -76,19 +78,43 @@ std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, c
   return out;
 }
 
-/// Adds the forces of a mass on the unknowns of its element.
-void add_forces(const MassPlace& place, const ElementDofs& dofs, double h, int order,
-                const Eigen::Ref<const Eigen::MatrixXd>& motions, Eigen::MatrixXd& out) {
-  for (int c = 0; c < 3; ++c) {
-    const double mass = c < 2 ? place.mass : place.rotary;
-    if (mass == 0.0) continue;
-    for (Index j = 0; j < motions.cols(); ++j) {
-      double moved = motions(dofs.a[c], j);
-      for (int r = 0; r < order; ++r) moved += h * place.integrals[r] * motions(dofs.v + c * order + r, j);
-      const double force = mass * moved;
-      out(dofs.a[c], j) += force;
-      for (int r = 0; r < order; ++r) out(dofs.v + c * order + r, j) += force * h * place.integrals[r];
-    }
+MassBlocks blocks_of(std::span<const MassPlace> places, double h, int order) {
+  MassBlocks out;
+  Eigen::VectorXd moved(order + 1);  // displacement of the place by the values of one component
+  moved[0] = 1.0;
+  const auto add = [&](double mass, Eigen::MatrixXd& block) {
+    if (mass == 0.0) return;
+    if (block.size() == 0) block.setZero(order + 1, order + 1);
+    block += mass * moved * moved.transpose();
+  };
+  for (const MassPlace& place : places) {
+    for (int r = 0; r < order; ++r) moved[r + 1] = h * place.integrals[static_cast<std::size_t>(r)];
+    add(place.mass, out.moving);
+    add(place.rotary, out.turning);
+  }
+  return out;
+}
+
+/// Adds the forces of the mass of one component of an element, for at most kLanes motions.
+/// @param a unknown of the value at the node
+/// @param v first unknown of the displacement gradients
+void add_forces(const Eigen::MatrixXd& block, Index a, Index v,
+                const Eigen::Ref<const Eigen::MatrixXd>& motions, Eigen::Ref<Eigen::MatrixXd> out) {
+  using Lane = Eigen::Array<double, kLanes, 1>;
+  std::array<Lane, kMaxOrder + 1> values;
+  const Index p = block.rows() - 1;
+  const Index count = motions.cols();
+  for (Index r = 0; r <= p; ++r) {
+    Lane& lane = values[static_cast<std::size_t>(r)];
+    const Index row = r == 0 ? a : v + r - 1;
+    lane.setZero();
+    for (Index j = 0; j < count; ++j) lane[j] = motions(row, j);
+  }
+  for (Index r = 0; r <= p; ++r) {
+    Lane force = Lane::Zero();
+    for (Index q = 0; q <= p; ++q) force += block(q, r) * values[static_cast<std::size_t>(q)];
+    const Index row = r == 0 ? a : v + r - 1;
+    for (Index j = 0; j < count; ++j) out(row, j) += force[j];
   }
 }
 
@@ -119,6 +145,12 @@ MassMatrix make_mass_matrix(const Structure& structure, const Model& model) {
     place.mass /= unit;
     place.rotary /= unit;
   }
+  for (std::size_t e = 0; e < places.size(); ++e) {
+    const auto first = static_cast<std::size_t>(out.elements.first[e]);
+    const auto count = static_cast<std::size_t>(out.elements.first[e + 1]) - first;
+    out.blocks.push_back(blocks_of(std::span(out.elements.places).subspan(first, count),
+                                   length_of_element(structure, static_cast<int>(e)), structure.mesh.order));
+  }
   out.square = structure.scales.force / (structure.scales.length * unit);
   out.scale = std::numeric_limits<double>::infinity();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
@@ -131,11 +163,17 @@ MassMatrix make_mass_matrix(const Structure& structure, const Model& model) {
 Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,
                               const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
-  for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
-    const double h = length_of_element(structure, static_cast<int>(e));
-    for (int i = masses.elements.first[e]; i < masses.elements.first[e + 1]; ++i)
-      add_forces(masses.elements.places[static_cast<std::size_t>(i)], structure.dofs[e], h,
-                 structure.mesh.order, motions, out);
+  for (Index from = 0; from < motions.cols(); from += kLanes) {
+    const Index count = std::min<Index>(kLanes, motions.cols() - from);
+    for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
+      const ElementDofs& dofs = structure.dofs[e];
+      for (int c = 0; c < 3; ++c) {
+        const Eigen::MatrixXd& block = c < 2 ? masses.blocks[e].moving : masses.blocks[e].turning;
+        if (block.size() > 0)
+          add_forces(block, dofs.a[c], dofs.v + c * structure.mesh.order, motions.middleCols(from, count),
+                     out.middleCols(from, count));
+      }
+    }
   }
   return out;
 }

@@ -3,6 +3,7 @@
 /// Masses of a structure on its mesh.
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "solver/discrete/structure.h"
 #include "solver/element/element_masses.h"
@@ -10,10 +11,17 @@
 
 namespace snapthrough {
 
+/// Parts of M on the values (u_a, u'_1, ..., u'_p) of one component of an element, (p + 1) x (p + 1): x and y
+/// have the same, the rotation has another. Empty where there is no mass.
+struct MassBlocks {
+  Eigen::MatrixXd moving, turning;
+};
+
 /// Mass matrix M of a structure. Eigenvalues mu of J x = mu M x are squares of circular frequencies.
 struct MassMatrix {
   ElementMasses elements;
-  double square = 1.0;  ///< omega^2 of mu = 1, in the model's units
+  std::vector<MassBlocks> blocks;  ///< one for each element
+  double square = 1.0;             ///< omega^2 of mu = 1, in the model's units
   /// Estimate of the lowest mu of a member alone: pi^4 EI / (m l^4), least over the members.
   double scale = 1.0;
 };

@@ -89,8 +89,9 @@ std::vector<FollowerForce> follower_forces_of(const Structure& structure, const 
   std::vector<FollowerForce> out;
   for (const Load& load : model.loads) {
     const auto* point = std::get_if<PointLoad>(&load);
-    if (point == nullptr || !point->follows || structure.geometry == Geometry::linear) continue;
+    if (point == nullptr || is_dead(*point) || structure.geometry == Geometry::linear) continue;
     FollowerForce& force = out.emplace_back();
+    force.fixed_line = point->fixed_line;
     const bool grows = point->pattern == Pattern::proportional;
     for (std::size_t c = 0; c < 2; ++c)
       (grows ? force.proportional : force.constant)[c] =

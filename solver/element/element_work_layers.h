@@ -48,7 +48,8 @@ void ElementWorkOf<P>::find_layers(const double* y) {
   }
 }
 
-/// Adds a functional of an element, times a factor, to the row of a coupling.
+/// Adds the weights of a functional (the penetration at a place of an element, or its slope), times a factor,
+/// to the row of a coupling.
 template <int P>
 void ElementWorkOf<P>::add_row(const Functional& f, int element, double factor, Coupling& out) const {
   const ElementDofs& dofs = dofs_[element];

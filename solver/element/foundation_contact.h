@@ -64,8 +64,7 @@ class FoundationContact {
   /// Whether the ground with the shear layer continues beyond the foundation's range.
   [[nodiscard]] bool endless() const { return foundation_law_.endless; }
   [[nodiscard]] double modulus() const { return foundation_law_.law.stiffness; }
-  /// Whether the contact is that of a one-sided foundation with a shear layer (shear_layer.h).
-  [[nodiscard]] bool has_layer() const { return law_.one_sided && shear() > 0.0; }
+  [[nodiscard]] bool has_layer() const { return foundation_law_.has_layer(); }
   /// Scaled length of the element, and arc length from the member's start to the element's.
   [[nodiscard]] double length() const { return place_.length; }
   [[nodiscard]] double start() const { return place_.length * place_.from / (place_.to - place_.from); }

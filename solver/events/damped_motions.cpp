@@ -60,8 +60,8 @@ MatrixXd action_of(const NaturalMotions& motions) {
 
 }  // namespace
 
-double largest_growth(const Structure& structure, const Model& model, const MassMatrix& masses,
-                      const NaturalMotions& right, const NaturalMotions& left) {
+GrowingMotion most_growing(const Structure& structure, const Model& model, const MassMatrix& masses,
+                           const NaturalMotions& right, const NaturalMotions& left) {
   const MatrixXd& X = right.motions;
   const MatrixXd& Y = left.motions;
   const Index n = X.cols();
@@ -74,10 +74,12 @@ double largest_growth(const Structure& structure, const Model& model, const Mass
   companion.bottomLeftCorner(n, n) = -action_of(right);
   companion.bottomRightCorner(n, n) = -solve_row_pivoting(M, C);
   const ComplexEigen found = complex_eigen(companion);
-  double growth = -std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& s : found.values)
-    if (std::abs(s.imag()) > kOscillates * std::abs(s)) growth = std::max(growth, s.real() / std::abs(s));
-  return growth;
+  GrowingMotion out{-std::numeric_limits<double>::infinity(), 0.0};
+  for (const std::complex<double>& s : found.values) {
+    const double growth = s.real() / std::abs(s);
+    if (std::abs(s.imag()) > kOscillates * std::abs(s) && growth > out.growth) out = {growth, std::norm(s)};
+  }
+  return out;
 }
 
 }  // namespace snapthrough

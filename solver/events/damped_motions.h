@@ -7,14 +7,21 @@
 
 namespace snapthrough {
 
-/// @brief Largest growth Re(s) / |s| of the damped vibrations exp(s t) that oscillate; minus infinity when
-/// none oscillates.
+/// A damped vibration exp(s t).
+struct GrowingMotion {
+  double growth = 0.0;  ///< Re(s) / |s|
+  double square = 0.0;  ///< |s|^2, scaled
+};
+
+/// @brief The damped vibration with the largest growth, of those that oscillate; its growth is minus infinity
+/// when none oscillates.
 ///
 /// (s^2 M + s C + J) x = 0 with C = alpha M + beta K, K the elastic stiffness of members and their joints, on
 /// the span of undamped motions: s to first order in the damping of the motions that were left out.
 /// @param model model of the structure, with Model::damping
 /// @param right, left motions of J and of its transpose; equal numbers
-[[nodiscard]] double largest_growth(const Structure& structure, const Model& model, const MassMatrix& masses,
-                                    const NaturalMotions& right, const NaturalMotions& left);
+[[nodiscard]] GrowingMotion most_growing(const Structure& structure, const Model& model,
+                                         const MassMatrix& masses, const NaturalMotions& right,
+                                         const NaturalMotions& left);
 
 }  // namespace snapthrough

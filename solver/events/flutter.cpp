@@ -94,7 +94,7 @@ int diverging(const Squares& squares) {
 }
 
 /// Whether a smooth function may have zeros on a step that the signs at its ends do not show.
-/// @param scale magnitude of the function where nothing is zero
+/// @param scale magnitude of the function away from its zeros
 bool may_hide_zeros(double from, double middle, double to, double scale) {
   const bool same = (from > 0.0) == (to > 0.0);
   if (same && (middle > 0.0) != (from > 0.0)) return true;
@@ -136,37 +136,31 @@ FlutterSearch::FlutterSearch(const Structure& structure, const Model& model)
 }
 
 FlutterSearch::Sample FlutterSearch::sample(const PathPoint& point) {
-  Sample out{point, natural_motions(structure_, problem_, masses_, point.y, point.lambda, search_), 0};
-  search_.near = out.motions.motions;
-  for (const auto& square : out.motions.squares) search_.scale = std::max(search_.scale, std::abs(square));
+  Sample out{
+      point, natural_motions(structure_, problem_, masses_, point.y, point.lambda, search_, columns_), 0, {}};
+  search_.begin_with(out.motions);
   out.pairs = pairs_in(out.motions.squares);
   if (!is_damped(model_.damping)) return out;
-  left_.scale = search_.scale;
   problem_.set_transposed(true);
-  const NaturalMotions left = natural_motions(structure_, problem_, masses_, point.y, point.lambda, left_);
+  const NaturalMotions left =
+      natural_motions(structure_, problem_, masses_, point.y, point.lambda, left_, columns_);
   problem_.set_transposed(false);
-  left_.near = left.motions;
+  left_.begin_with(left);
   if (left.motions.cols() == out.motions.motions.cols())
-    out.growth = largest_growth(structure_, model_, masses_, out.motions, left);
+    out.growing = most_growing(structure_, model_, masses_, out.motions, left);
   return out;
-}
-
-const NaturalMotions& FlutterSearch::motions_at(const PathPoint& point) {
-  if (!last_ || last_->point.lambda != point.lambda || last_->point.y != point.y) last_ = sample(point);
-  return last_->motions;
 }
 
 StepVibrations FlutterSearch::on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to,
                                       double tolerance) {
-  static_cast<void>(motions_at(from));
-  const Sample first = *last_;
+  const bool is_known = last_ && last_->point.lambda == from.lambda && last_->point.y == from.y;
+  const Sample first = is_known ? *std::move(last_) : sample(from);
   const Sample second = sample(to);
-  too_long_ =
-      diverging(first.motions.squares) == from.negative && diverging(second.motions.squares) != to.negative;
+  too_long_ = false;
   StepVibrations out;
-  if (!too_long_) out.flutter = between(solver, first, second, tolerance, 0);
+  out.flutter = between(solver, first, second, tolerance, 0);
   out.is_too_long = too_long_;
-  if (!too_long_) last_ = second;
+  last_ = too_long_ ? first : second;
   return out;
 }
 
@@ -175,8 +169,9 @@ std::optional<CriticalEvent> FlutterSearch::between(PointSolver& solver, const S
                                                     double tolerance, int depth) {
   const auto here = [&]() -> std::optional<CriticalEvent> {
     if (is_damped(model_.damping))
-      return from.growth <= 0.0 && to.growth > 0.0 ? locate_growth(solver, from, to, tolerance)
-                                                   : std::nullopt;
+      return from.growing.growth <= 0.0 && to.growing.growth > 0.0
+                 ? locate_growth(solver, from, to, tolerance)
+                 : std::nullopt;
     return to.pairs > from.pairs ? locate(solver, from, to, tolerance) : std::nullopt;
   };
   const double width = std::abs(to.point.lambda - from.point.lambda);
@@ -207,8 +202,9 @@ StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, co
   return out;
 }
 
-/// The event at a root, with the motion of the pair nearest to a mean.
-CriticalEvent FlutterSearch::event_at(const LocatedRoot& root, const std::optional<double>& mean) {
+/// The event at a root, with the motion of the pair nearest to a mean of eigenvalues; of damped vibrations
+/// nearest to that of the growing one.
+CriticalEvent FlutterSearch::event_at(const LocatedRoot& root, double mean) {
   CriticalEvent event;
   event.type = CriticalType::flutter;
   event.point = root.root;
@@ -221,19 +217,20 @@ CriticalEvent FlutterSearch::event_at(const LocatedRoot& root, const std::option
   event.bracket_loads[1] = root.after.lambda;
   const Sample at = sample(event.point);
   const Squares& squares = at.motions.squares;
-  const Pair pair = nearest(squares, mean.value_or(squares.front().real()));
+  const Pair pair = nearest(squares, is_damped(model_.damping) ? at.growing.square : mean);
   event.null = at.motions.motions.col(static_cast<Eigen::Index>(pair.first));
   return event;
 }
 
 std::optional<CriticalEvent> FlutterSearch::locate_growth(PointSolver& solver, const Sample& from,
                                                           const Sample& to, double tolerance) {
-  const RootFunction function{[&](const PathPoint& at) { return sample(at).growth; },
+  const RootFunction function{[&](const PathPoint& at) { return sample(at).growing.growth; },
                               closed_by_load(tolerance)};
-  const LocatedRoot root = find_root(Segment(solver, from.point, to.point), from.growth, to.growth, function);
+  const LocatedRoot root =
+      find_root(Segment(solver, from.point, to.point), from.growing.growth, to.growing.growth, function);
   too_long_ = !root.found;
   if (too_long_) return std::nullopt;
-  return event_at(root, std::nullopt);
+  return event_at(root, 0.0);
 }
 
 std::optional<CriticalEvent> FlutterSearch::locate(PointSolver& solver, const Sample& from, const Sample& to,
@@ -241,10 +238,8 @@ std::optional<CriticalEvent> FlutterSearch::locate(PointSolver& solver, const Sa
   const Pair beyond = new_pair(from.motions.squares, to.motions.squares);
   const Pair before = nearest(from.motions.squares, beyond.mean);
   double mean = beyond.mean;
-  NaturalMotions motions;
   const RootFunction function{[&](const PathPoint& at) {
-                                motions = sample(at).motions;
-                                const Pair pair = nearest(motions.squares, mean);
+                                const Pair pair = nearest(sample(at).motions.squares, mean);
                                 mean = pair.mean;
                                 return pair.difference;
                               },

@@ -7,6 +7,7 @@
 
 #include "solver/discrete/mass_matrix.h"
 #include "solver/events/critical_event.h"
+#include "solver/events/damped_motions.h"
 #include "solver/events/natural_motions.h"
 #include "solver/events/root_finder.h"
 #include "solver/path/point_solver.h"
@@ -44,15 +45,13 @@ class FlutterSearch {
   /// @param tolerance on the load of flutter, relative
   [[nodiscard]] StepVibrations on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to,
                                        double tolerance);
-  /// Lowest natural motions at a point of the path.
-  [[nodiscard]] const NaturalMotions& motions_at(const PathPoint& point);
 
  private:
   struct Sample {
     PathPoint point;
     NaturalMotions motions;
-    int pairs = 0;        ///< conjugate pairs of eigenvalues that are not real
-    double growth = 0.0;  ///< growth of damped vibrations; 0 without damping
+    int pairs = 0;          ///< conjugate pairs of eigenvalues that are not real
+    GrowingMotion growing;  ///< damped vibration; not used without damping
   };
   [[nodiscard]] Sample sample(const PathPoint& point);
   [[nodiscard]] std::optional<CriticalEvent> between(PointSolver& solver, const Sample& from,
@@ -62,7 +61,7 @@ class FlutterSearch {
   [[nodiscard]] std::optional<CriticalEvent> locate(PointSolver& solver, const Sample& from, const Sample& to,
                                                     double tolerance);
 
-  [[nodiscard]] CriticalEvent event_at(const LocatedRoot& root, const std::optional<double>& mean);
+  [[nodiscard]] CriticalEvent event_at(const LocatedRoot& root, double mean);
 
   StructuralProblem problem_;
   const Structure& structure_;
@@ -70,6 +69,7 @@ class FlutterSearch {
   MassMatrix masses_;
   MotionSearch search_;
   MotionSearch left_;  ///< motions of the transposed tangent
+  KrylovColumns columns_;
   std::optional<Sample> last_;
   bool too_long_ = false;  ///< the present step, see StepVibrations
 };

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "solver/numeric/dense.h"
 #include "solver/numeric/pseudo_random.h"
@@ -20,6 +23,7 @@ struct SearchLimits {
   static constexpr Index block = kLanes;      ///< columns of a block: as many as solve() takes at once
   static constexpr Index spare = 36;          ///< vectors beyond three per wanted eigenvalue, at most
   static constexpr double dependent = 1e-10;  ///< part of a column outside the basis that is rounding
+  static constexpr double orthogonal = 1e-4;  ///< error of products of vectors, over that of eigenvalues
   static constexpr double massless = 1e-13;   ///< eigenvalue of the inverse, over the largest: no mass moves
   static constexpr double far = 30.0;         ///< shift over the lowest eigenvalues at which it is moved
   static constexpr double below = 0.3;        ///< moved shift over the lowest eigenvalues
@@ -28,6 +32,7 @@ struct SearchLimits {
   static constexpr double first_shift = 0.1;  ///< first shift over the scale
   static constexpr int shifts = 60;           ///< shifts that are tried
   static constexpr int tries = 3;             ///< starts from other vectors when an eigenvalue was missed
+  static constexpr double conjugate = 1e-12;  ///< difference of the real parts of a pair, over its magnitude
   static constexpr double rounding = 1e-12;   ///< rest of a motion that is rounding, over the largest theta
   static constexpr double gap = 1e-9;         ///< distance of neighbours that one count tells apart
 };
@@ -55,7 +60,7 @@ class ShiftedInverse {
     return weighted;
   }
   [[nodiscard]] Index size() const { return problem_.size(); }
-  [[nodiscard]] bool is_symmetric() const { return !problem_.is_unsymmetric(); }
+  [[nodiscard]] bool is_symmetric() const { return !structure_.unsymmetric(); }
   [[nodiscard]] int factorizations() const { return factorizations_; }
 
  private:
@@ -71,79 +76,138 @@ class ShiftedInverse {
 /// Eigenvalue theta of T with its motion in the basis.
 struct Ritz {
   std::complex<double> theta;
-  Eigen::VectorXcd combination;
+  /// Combination of the images T V that is the motion; of a conjugate pair the real part for the first and
+  /// the imaginary part for the second.
+  VectorXd combination;
   double rest = 0.0;  ///< norm of T x - theta x
 };
 
-/// Krylov basis V with M V, T V and the projection V^T M T V.
+/// Krylov basis V, orthonormal in M, with M V, the images T V and the projection H = V^T M T V.
 class Basis {
  public:
-  Basis(ShiftedInverse& inverse, const MatrixXd& start) : inverse_(inverse) {
-    add(inverse.apply(inverse.weighted(start)));
+  /// @param tolerance relative error of eigenvalues
+  /// @param most number of columns from which on no block is expanded
+  /// @param columns kept by reference
+  Basis(ShiftedInverse& inverse, const MatrixXd& start, double tolerance, Index most, KrylovColumns& columns)
+      : inverse_(inverse),
+        least_(std::numeric_limits<double>::epsilon() / (SearchLimits::orthogonal * tolerance)),
+        V_(columns.basis),
+        MV_(columns.weighted),
+        image_(columns.images) {
+    const Index all = most + start.cols() + SearchLimits::block;
+    for (MatrixXd* one : {&V_, &MV_, &image_})
+      if (one->rows() != inverse.size() || one->cols() < all) one->resize(inverse.size(), all);
+    H_ = MatrixXd::Zero(all, all);
+    add(inverse_.apply(inverse_.weighted(start)));
   }
   [[nodiscard]] Index size() const { return columns_; }
+  [[nodiscard]] Index expanded() const { return expanded_; }
   [[nodiscard]] Index fresh() const { return columns_ - expanded_; }
   /// Adds T times the newest vectors.
   void expand() {
     const Index first = expanded_;
-    const Index count = std::min(SearchLimits::block, columns_ - first);
+    const Index count = std::min(SearchLimits::block, fresh());
     const MatrixXd image = inverse_.apply(MV_.middleCols(first, count));
-    image_.conservativeResize(inverse_.size(), first + count);
-    image_.rightCols(count) = image;
-    expanded_ = first + count;
+    image_.middleCols(first, count) = image;
+    expanded_ += count;
     add(image);
+    // images lie in the span of the basis: later vectors are orthogonal to this one's
+    H_.block(0, first, columns_, count) = along_basis(image);
   }
   /// Eigenvalues of T on the expanded vectors, largest first, as those of the lowest mu.
   [[nodiscard]] std::vector<Ritz> ritz() const;
-  [[nodiscard]] Eigen::VectorXcd motion(const Ritz& pair) const {
-    return image_.leftCols(expanded_) * pair.combination;
+  /// Motions of the first pairs, one column each.
+  [[nodiscard]] MatrixXd motions(std::span<const Ritz> pairs) const {
+    MatrixXd combinations(expanded_, static_cast<Index>(pairs.size()));
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      combinations.col(static_cast<Index>(i)) = pairs[i].combination;
+    return image_.leftCols(expanded_) * combinations;
   }
 
  private:
-  void add(const MatrixXd& columns);
+  void add(MatrixXd columns);
+  /// V^T M x of each column x. Products by column: with four columns, Eigen's matrix products spend more time
+  /// on copies than on products.
+  [[nodiscard]] MatrixXd along_basis(const MatrixXd& columns) const {
+    MatrixXd out(columns_, columns.cols());
+    for (Index j = 0; j < columns.cols(); ++j)
+      out.col(j).noalias() = MV_.leftCols(columns_).transpose() * columns.col(j);
+    return out;
+  }
 
   ShiftedInverse& inverse_;
+  const double least_;  ///< part of a column that is orthogonal enough after one pass
   Index columns_ = 0;
   Index expanded_ = 0;
-  MatrixXd V_, MV_, image_;
+  MatrixXd &V_, &MV_, &image_;  ///< the first columns are in use
+  MatrixXd H_;
 };
 
-/// Appends the part of each column that is orthogonal to the basis, but for rounding.
-void Basis::add(const MatrixXd& columns) {
+/// Makes columns orthonormal in M, and removes those that depend on the ones before but for rounding.
+/// @param weighted M times the columns
+/// @param removed squared norms of the parts that were taken from the columns before
+/// @return the least part of a column that was left, over the column; of columns that are kept
+double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& removed) {
+  Index kept = 0;
+  double least = 1.0;
   for (Index j = 0; j < columns.cols(); ++j) {
     VectorXd v = columns.col(j);
-    VectorXd mv = inverse_.weighted(v);
-    const double size = std::sqrt(std::max(0.0, v.dot(mv)));
-    for (int pass = 0; pass < 2 && columns_ > 0; ++pass) {
-      v -= V_ * (V_.transpose() * mv);
-      mv = inverse_.weighted(v);
-    }
-    const double norm = std::sqrt(std::max(0.0, v.dot(mv)));
-    if (!(norm > SearchLimits::dependent * size)) continue;
-    V_.conservativeResize(inverse_.size(), columns_ + 1);
-    MV_.conservativeResize(inverse_.size(), columns_ + 1);
-    V_.col(columns_) = v / norm;
-    MV_.col(columns_) = mv / norm;
-    ++columns_;
+    VectorXd mv = weighted.col(j);
+    const double size = v.dot(mv) + removed[j];
+    const VectorXd along = weighted.leftCols(kept).transpose() * v;
+    v.noalias() -= columns.leftCols(kept) * along;
+    mv.noalias() -= weighted.leftCols(kept) * along;
+    const double rest = v.dot(mv);
+    if (!(rest > SearchLimits::dependent * SearchLimits::dependent * size)) continue;
+    least = std::min(least, std::sqrt(rest / size));
+    columns.col(kept) = v / std::sqrt(rest);
+    weighted.col(kept) = mv / std::sqrt(rest);
+    ++kept;
   }
+  columns.conservativeResize(Eigen::NoChange, kept);
+  weighted.conservativeResize(Eigen::NoChange, kept);
+  return least;
+}
+
+/// Appends the part of the columns that is orthogonal to the basis, but for rounding.
+void Basis::add(MatrixXd columns) {
+  MatrixXd weighted;
+  double left = 0.0;
+  // a second pass removes what the rounding of the first has left
+  for (int pass = 0; pass < 2 && left < least_; ++pass) {
+    const MatrixXd along = along_basis(columns);
+    for (Index j = 0; j < columns.cols(); ++j)
+      columns.col(j).noalias() -= V_.leftCols(columns_) * along.col(j);
+    weighted = inverse_.weighted(columns);
+    left = orthonormalise(columns, weighted, along.colwise().squaredNorm());
+  }
+  V_.middleCols(columns_, columns.cols()) = columns;
+  MV_.middleCols(columns_, columns.cols()) = weighted;
+  columns_ += columns.cols();
+}
+
+/// Part of an eigenvector that stands for it among real vectors: of a conjugate pair the real part first.
+VectorXd real_part_of_pair(const ComplexEigen& found, Index i) {
+  const bool second =
+      i > 0 && found.values[i].imag() != 0.0 && found.values[i] == std::conj(found.values[i - 1]);
+  if (second) return found.vectors.col(i).imag();
+  return found.vectors.col(i).real();
 }
 
 std::vector<Ritz> Basis::ritz() const {
-  // images lie in the span of the basis: what a motion leaves is in the vectors that are not expanded
-  const MatrixXd all = MV_.leftCols(columns_).transpose() * image_;
-  const MatrixXd H = all.topRows(expanded_);
-  const MatrixXd beyond = all.bottomRows(columns_ - expanded_);
+  const auto H = H_.topLeftCorner(expanded_, expanded_);
+  // what a motion leaves is in the vectors that are not expanded
+  const auto beyond = H_.block(expanded_, 0, columns_ - expanded_, expanded_);
   std::vector<Ritz> out;
   if (inverse_.is_symmetric()) {
     const SymmetricEigen found = symmetric_eigen(symmetric_part(H));
     for (Index i = 0; i < found.values.size(); ++i)
-      out.push_back({found.values[i], found.vectors.col(i).cast<std::complex<double>>(), 0.0});
+      out.push_back({found.values[i], found.vectors.col(i), (beyond * found.vectors.col(i)).norm()});
   } else {
     const ComplexEigen found = complex_eigen(H);
     for (Index i = 0; i < found.values.size(); ++i)
-      out.push_back({found.values[i], found.vectors.col(i), 0.0});
+      out.push_back({found.values[i], real_part_of_pair(found, i), (beyond * found.vectors.col(i)).norm()});
   }
-  for (Ritz& pair : out) pair.rest = (beyond * pair.combination).norm();
   double largest = 0.0;
   for (const Ritz& pair : out) largest = std::max(largest, std::abs(pair.theta));
   std::erase_if(
@@ -153,7 +217,8 @@ std::vector<Ritz> Basis::ritz() const {
     const auto x = square(a);
     const auto y = square(b);
     // conjugates differ by rounding in their real parts
-    const bool pair = a.theta.imag() != 0.0 && std::abs(x.real() - y.real()) <= 1e-12 * std::abs(x);
+    const bool pair =
+        a.theta.imag() != 0.0 && std::abs(x.real() - y.real()) <= SearchLimits::conjugate * std::abs(x);
     return pair ? x.imag() < y.imag() : x.real() < y.real();
   });
   return out;
@@ -177,14 +242,8 @@ void take(const Basis& basis, const std::vector<Ritz>& pairs, int count, double 
   if (n > 0 && n < pairs.size() && pairs[n - 1].theta.imag() != 0.0 &&
       pairs[n].theta == std::conj(pairs[n - 1].theta))
     ++n;
-  out.motions.resize(basis.motion(pairs[0]).size(), static_cast<Index>(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    out.squares.push_back(shift + 1.0 / pairs[i].theta);
-    const Eigen::VectorXcd motion = basis.motion(pairs[i]);
-    const bool second =
-        pairs[i].theta.imag() != 0.0 && i > 0 && pairs[i - 1].theta == std::conj(pairs[i].theta);
-    out.motions.col(static_cast<Index>(i)) = second ? VectorXd(motion.imag()) : VectorXd(motion.real());
-  }
+  out.motions = basis.motions(std::span(pairs).first(n));
+  for (std::size_t i = 0; i < n; ++i) out.squares.push_back(shift + 1.0 / pairs[i].theta);
 }
 
 /// Motions to begin with: those nearby, filled up to a whole number of blocks.
@@ -200,16 +259,19 @@ MatrixXd start_of(const MotionSearch& search, Index size, unsigned seed) {
 
 /// One Krylov search with the present factors.
 void search_at(ShiftedInverse& inverse, double shift, const MotionSearch& search, unsigned seed,
-               NaturalMotions& out) {
-  Basis basis(inverse, start_of(search, inverse.size(), seed));
+               KrylovColumns& columns, NaturalMotions& out) {
   const Index most = 3 * search.count + SearchLimits::spare;
+  const double rest = inverse.is_symmetric() ? std::sqrt(search.tolerance) : search.tolerance;
+  Basis basis(inverse, start_of(search, inverse.size(), seed), search.tolerance, most, columns);
   std::vector<Ritz> pairs;
   out.converged = false;
   while (basis.fresh() > 0) {
     basis.expand();
+    // one image of each vector does not tell that it is a motion
+    if (basis.expanded() < 2 * SearchLimits::block && basis.fresh() > 0) continue;
     if (basis.fresh() > SearchLimits::block && basis.size() < most) continue;
     pairs = basis.ritz();
-    out.converged = basis.fresh() == 0 || has_converged(pairs, search.count, search.tolerance);
+    out.converged = basis.fresh() == 0 || has_converged(pairs, search.count, rest);
     if (out.converged || basis.size() >= most) break;
   }
   if (pairs.empty()) return;
@@ -236,22 +298,27 @@ bool is_complete(ShiftedInverse& inverse, double shift, const NaturalMotions& fo
 
 }  // namespace
 
+void MotionSearch::begin_with(const NaturalMotions& found) {
+  near = found.motions;
+  for (const auto& square : found.squares) scale = std::max(scale, std::abs(square));
+}
+
 NaturalMotions natural_motions(const Structure& structure, StructuralProblem& problem,
                                const MassMatrix& masses, const VectorXd& y, double lambda,
-                               const MotionSearch& search) {
+                               const MotionSearch& search, KrylovColumns& columns) {
   NaturalMotions out;
   ShiftedInverse inverse(structure, problem, masses, y, lambda);
   const double scale = search.scale > 0.0 ? search.scale : masses.scale;
   double shift = factorise_below(inverse, -SearchLimits::first_shift * scale);
   for (unsigned seed = 0; seed < SearchLimits::tries; ++seed) {
-    search_at(inverse, shift, search, seed, out);
+    search_at(inverse, shift, search, seed, columns, out);
     if (out.squares.empty()) break;
     // a shift far below the eigenvalues makes them alike: they lose digits, and the iteration is slow
     double size = 0.0;
     for (const auto& mu : out.squares) size = std::max(size, std::abs(mu));
     if (-shift > SearchLimits::far * size && size > SearchLimits::zero * -shift) {
       shift = factorise_below(inverse, -SearchLimits::below * size);
-      search_at(inverse, shift, search, seed, out);
+      search_at(inverse, shift, search, seed, columns, out);
     }
     if (!search.counted || !inverse.is_symmetric()) break;
     out.complete = is_complete(inverse, shift, out);

@@ -15,6 +15,10 @@
 namespace snapthrough {
 
 enum class AnalysisType { buckling, critical, path, static_, vibration };
+/// Whether a type of analysis has a row for each of `load_factors`.
+[[nodiscard]] constexpr bool has_rows(AnalysisType type) {
+  return type == AnalysisType::static_ || type == AnalysisType::vibration;
+}
 enum class Geometry { nonlinear, linear };
 enum class FoundationRule { consistent, lumped };
 enum class ControlType { arc_length, load, displacement };

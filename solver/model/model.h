@@ -242,14 +242,23 @@ struct Foundation {
   bool operator==(const Foundation&) const = default;
 };
 
+[[nodiscard]] inline bool has_one_sided_layer(const Foundation& foundation) {
+  return foundation.reaction != Reaction::bilateral && foundation.shear_stiffness > 0.0;
+}
+
 struct PointLoad {
   Location at;
   std::array<double, 2> force{0.0, 0.0};
   double moment = 0.0;
   Pattern pattern = Pattern::proportional;
   bool follows = false;  ///< the force turns with the rotation of its place
+  /// The force stays on its line of action on the undeformed structure; it acts on a rigid plate at its
+  /// place.
+  bool fixed_line = false;
   bool operator==(const PointLoad&) const = default;
 };
+/// Whether a force acts as it does on the undeformed structure.
+[[nodiscard]] inline bool is_dead(const PointLoad& load) { return !load.follows && !load.fixed_line; }
 /// Dead load per undeformed or projected length.
 struct DistributedLoad {
   std::string member;

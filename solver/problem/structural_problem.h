@@ -102,8 +102,6 @@ class StructuralProblem final : public EquilibriumProblem {
   }
   /// @brief Whether solve() is with the transpose of the tangent, from the next linearise() on.
   void set_transposed(bool transposed) { follower_loads_.transpose(transposed); }
-  /// Whether the tangent is not symmetric.
-  [[nodiscard]] bool is_unsymmetric() const { return !follower_loads_.empty(); }
 
  protected:
   /// Uses small displacements where the regime or the structure asks for them.

@@ -40,7 +40,7 @@ std::vector<std::array<double, 2>> layer_intervals(const Structure& structure, c
 std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const Model& model,
                                                      const Eigen::VectorXd& y, int foundation, double depth) {
   if (initial_stiffness(model.foundations[foundation]) == 0.0) return {};
-  if (has_layer(structure.foundation_laws[static_cast<std::size_t>(foundation)]))
+  if (structure.foundation_laws[static_cast<std::size_t>(foundation)].has_layer())
     return layer_intervals(structure, y, foundation, depth);
   const int member = index_of(model.members, model.foundations[foundation].member);
   const double length = structure.axes[member]->length();

@@ -66,21 +66,24 @@ Mode mode_displacements(const Structure& structure, const Model& model, const Ei
   return out;
 }
 
-double scale_to_largest(Mode& mode) {
+double scale_to_largest(std::span<Mode> parts) {
+  std::vector<MemberMode*> members;
+  for (Mode& mode : parts)
+    for (MemberMode& member : mode.members) members.push_back(&member);
   double largest = 0.0;
   double first_large = 0.0;
   double sign = 1.0;
   double turned = 0.0;
   double length = 0.0;
-  for (const MemberMode& member : mode.members) {
-    length = std::max(length, member.s.back());
-    for (std::size_t i = 0; i < member.s.size(); ++i) {
-      if (std::abs(member.rotation[i]) > std::abs(turned) * ModeLimits::larger) turned = member.rotation[i];
-      const double size = std::hypot(member.u[i], member.v[i]);
+  for (const MemberMode* member : members) {
+    length = std::max(length, member->s.back());
+    for (std::size_t i = 0; i < member->s.size(); ++i) {
+      if (std::abs(member->rotation[i]) > std::abs(turned) * ModeLimits::larger) turned = member->rotation[i];
+      const double size = std::hypot(member->u[i], member->v[i]);
       largest = std::max(largest, size);
       if (size <= first_large * ModeLimits::larger) continue;
       first_large = size;
-      sign = std::abs(member.u[i]) > std::abs(member.v[i]) ? member.u[i] : member.v[i];
+      sign = std::abs(member->u[i]) > std::abs(member->v[i]) ? member->u[i] : member->v[i];
     }
   }
   double scale = 1.0;
@@ -89,8 +92,8 @@ double scale_to_largest(Mode& mode) {
     scale = (sign < 0.0 ? -1.0 : 1.0) / largest;
   else if (turned != 0.0)
     scale = 1.0 / turned;
-  for (MemberMode& member : mode.members)
-    for (auto* values : {&member.u, &member.v, &member.rotation})
+  for (MemberMode* member : members)
+    for (auto* values : {&member->u, &member->v, &member->rotation})
       for (double& value : *values) value *= scale;
   return scale;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ namespace snapthrough {
 
 /// @brief Normalises a mode: largest sampled displacement one, first large component positive; by the largest
 /// rotation if only rotations occur.
+/// @param parts real and imaginary part of one motion, which get one factor; or one mode
 /// @return the factor applied
-double scale_to_largest(Mode& mode);
+double scale_to_largest(std::span<Mode> parts);
+inline double scale_to_largest(Mode& mode) { return scale_to_largest(std::span(&mode, 1)); }
 
 /// @brief Effective length of each member at a buckling load.
 /// @param lengths of the axes, one per member

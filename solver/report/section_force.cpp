@@ -53,19 +53,31 @@ void SectionForces::add_loads(const Eigen::VectorXd& y, double proportional, dou
   }
 }
 
+SectionForces::PointAction SectionForces::point_force(const PointLoad& load, double xi,
+                                                      const Eigen::VectorXd& y, double factor) const {
+  const Scales& scales = structure_.scales;
+  const auto displacement = [&](const std::array<double, 3>& row) {
+    return structure_.geometry == Geometry::linear
+               ? 0.0
+               : displacement_row(structure_, model_, load.at, row).dot(y);
+  };
+  const double angle = load.follows ? displacement({0.0, 0.0, 1.0}) : 0.0;
+  const Vec2 force = global_force(LoadAxes::member, load.force, angle);
+  const double x = scales.scaled_force(factor * force[0]);
+  const double z = scales.scaled_force(factor * force[1]);
+  double moment = scales.scaled_moment(factor * load.moment);
+  // the line of the force passes beside its place
+  if (load.fixed_line) moment += displacement({-z, x, 0.0});
+  return {xi, {x, z, moment}};
+}
+
 void SectionForces::add_load(const Load& load, const Eigen::VectorXd& y, double factor) {
   const std::string& member = model_.members[cell_.member].id;
   const Scales& scales = structure_.scales;
   if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && point->at.member == member) {
     const MeshPlace place = place_of(structure_.mesh, cell_.member, point->at.fraction);
     if (place.element == element_) {
-      const bool turns = point->follows && structure_.geometry == Geometry::nonlinear;
-      const double angle =
-          turns ? displacement_row(structure_, model_, point->at, {0.0, 0.0, 1.0}).dot(y) : 0.0;
-      const Vec2 force = global_force(LoadAxes::member, point->force, angle);
-      points_.push_back({place.xi,
-                         {scales.scaled_force(factor * force[0]), scales.scaled_force(factor * force[1]),
-                          scales.scaled_moment(factor * point->moment)}});
+      points_.push_back(point_force(*point, place.xi, y, factor));
     }
   }
   if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member)

@@ -68,6 +68,9 @@ class SectionForces {
 
   void add_loads(const Eigen::VectorXd& y, double proportional, double constant);
   void add_load(const Load& load, const Eigen::VectorXd& y, double factor);
+  /// Action of a point load on the member of the element, at the place xi.
+  [[nodiscard]] PointAction point_force(const PointLoad& load, double xi, const Eigen::VectorXd& y,
+                                        double factor) const;
   void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers);

@@ -90,7 +90,7 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     const Law acting = law_on(structure, law, place.element).at(fraction);
     double beyond = law.penetration(place_on_axis(structure, place.element, place.xi), {u[0], u[1]}).depth;
     // beside contact the surface of a shear layer lies deeper than the member
-    const bool is_apart = has_layer(law) && !touches(fraction * axis.length());
+    const bool is_apart = law.has_layer() && !touches(fraction * axis.length());
     const double reaction = is_apart ? 0.0 : acting.reaction_beyond(beyond);
     // displacement of the base's surface by its given stiffness, where the element has a bounded one
     if (law.law.one_sided && beyond > 0.0 && acting.stiffness > 0.0)

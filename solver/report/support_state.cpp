@@ -171,13 +171,13 @@ void add_foundations(const Structure& structure, const Model& model, const Vecto
   const std::size_t first = bearings.size();
   bearings.resize(first + model.foundations.size());
   for (std::size_t i = 0; i < model.foundations.size(); ++i)
-    if (const FoundationLaw& law = structure.foundation_laws[i]; has_layer(law))
+    if (const FoundationLaw& law = structure.foundation_laws[i]; law.has_layer())
       add_layer(structure, law, layer_state(structure, y, static_cast<int>(i)), y, rigid,
                 bearings[first + i]);
   for (const FoundationPart& part : structure.foundation_parts) {
     const FoundationLaw foundation =
         law_on(structure, structure.foundation_laws[part.foundation], part.element);
-    if (has_layer(foundation)) continue;
+    if (foundation.has_layer()) continue;
     Bearing& sum = bearings[first + static_cast<std::size_t>(part.foundation)];
     if (foundation.shear > 0.0)
       add_springs_of(shear_layer_springs(structure, foundation, part.element, part.range), y, rigid, sum);

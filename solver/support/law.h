@@ -143,6 +143,8 @@ struct FoundationLaw {
   double shear = 0.0;    ///< stiffness G of the shear layer
   bool endless = false;  ///< whether the ground with a one-sided shear layer continues beyond the range
   double sense = 1.0;    ///< factor on results, see sense_of()
+  /// Whether the foundation is one-sided and has a shear layer (element/shear_layer.h).
+  [[nodiscard]] bool has_layer() const { return law.one_sided && shear > 0.0; }
   std::shared_ptr<const ReactionCurve> curve;                 ///< curve of `law`; null: linear
   std::shared_ptr<const LawVariation> variation{};            ///< null: constant along the member
   double stiffest = std::numeric_limits<double>::infinity();  ///< bound of the stiffness

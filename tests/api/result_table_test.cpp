@@ -18,6 +18,8 @@ TEST(ResultTable, EachTypeOfAnalysisHasItsTables) {
   EXPECT_EQ(table_names(tables_of("critical")), "critical_points, states");
   EXPECT_EQ(table_names(tables_of("static")), "static, states");
   EXPECT_EQ(table_names(tables_of("buckling")), "buckling");
+  EXPECT_EQ(tables_of("vibration").front(), ResultTable::vibrations);
+  EXPECT_EQ(table_names(tables_of("vibration")), "static, vibrations, states");
   EXPECT_TRUE(tables_of("").empty());
   EXPECT_EQ(tables_of("static").front(), ResultTable::static_rows);
   EXPECT_EQ(result_table_from("static"), ResultTable::static_rows);
@@ -39,6 +41,35 @@ TEST(ResultTable, BucklingLoadsAreNumberedFromOne) {
       json::parse(R"({"buckling": {"load_factors": [9.5, 21.25], "error_estimates": [1e-7, null]}})");
   EXPECT_EQ(result_csv(result, ResultTable::buckling),
             "mode,load_factor,error_estimate\r\n1,9.5,1e-07\r\n2,21.25,\r\n");
+}
+
+TEST(ResultTable, VibrationsHaveARowForEachMotion) {
+  const json result = json::parse(R"({"vibrations": [
+    {"load_factor": 0, "frequencies": {"omega_squared": [2.5, 4]}, "error_estimates": [1e-7, null], "modes": []},
+    {"load_factor": 1, "frequencies": {"omega_squared": [3, 3], "imaginary": [-0.5, 0.5]},
+     "error_estimates": [null, null], "modes": []}]})");
+  EXPECT_EQ(result_csv(result, ResultTable::vibrations),
+            "load_factor,mode,omega_squared,imaginary,error_estimate\r\n0,1,2.5,0,1e-07\r\n0,2,4,0,\r\n"
+            "1,1,3,-0.5,\r\n1,2,3,0.5,\r\n");
+}
+
+TEST(ResultTable, RowsHaveTheirFrequencies) {
+  const json result = json::parse(R"({"static": {
+    "load_factor": [0.5, 1], "negative_eigenvalues": [0, null], "state": [0, null],
+    "frequencies": [null, {"omega_squared": [2, 5], "imaginary": [0, 0]}]}})");
+  EXPECT_EQ(
+      result_csv(result, ResultTable::static_rows),
+      "load_factor,negative_eigenvalues,state,omega_squared:1,omega_squared:2,imaginary:1,imaginary:2\r\n"
+      "0.5,0,0,,,,\r\n1,,,2,5,0,0\r\n");
+  Branch branch;
+  branch.load_factor = {0.0, 1.0};
+  branch.arc_length = {0.0, 0.5};
+  branch.frequencies = {Frequencies{{2.0, 5.0}}, std::nullopt};
+  std::string csv;
+  EXPECT_FALSE(PointsTable({branch}).append_rows(csv, 1U << 20U));
+  EXPECT_THAT(csv, ::testing::HasSubstr(",omega_squared:1,omega_squared:2\r\n0,0,0,"));
+  EXPECT_THAT(csv, ::testing::HasSubstr(",2,5\r\n0,1,1,"));
+  EXPECT_THAT(csv, ::testing::EndsWith(",,\r\n"));
 }
 
 TEST(ResultTable, CriticalPointsHaveTheirMonitors) {
@@ -119,11 +150,12 @@ TEST(ResultTable, OfADocumentInPiecesIsTheSame) {
       json::parse(R"({"critical_points": [{"branch": 0, "type": "limit_max", "monitors": {"m": 1}}],
     "static": {"load_factor": [1, 2], "negative_eigenvalues": [0, 0], "state": [null, 0], "monitors": {"m": [3, 4]}},
     "buckling": {"load_factors": [1, 2]},
+    "vibrations": [{"load_factor": 1, "frequencies": {"omega_squared": [1, 2]}}],
     "states": [{"branch": 0, "load_factor": 2, "members": {"m": {"s": [0, 1], "x": [0, 0.5]}}},
                {"branch": 1, "load_factor": 3, "members": {"m": {"s": [0, 1], "x": [0, 0.25]}}}]})");
   const std::string text = result.dump();
-  for (const ResultTable table :
-       {ResultTable::critical_points, ResultTable::static_rows, ResultTable::buckling, ResultTable::states}) {
+  for (const ResultTable table : {ResultTable::critical_points, ResultTable::static_rows,
+                                  ResultTable::buckling, ResultTable::vibrations, ResultTable::states}) {
     for (const std::size_t size : {1UL, 50UL, text.size()}) {
       ResultTableReader reader(table);
       std::string csv;

@@ -436,6 +436,8 @@ TEST(Sweep, SaysWhatCannotBeFollowed) {
   EXPECT_THAT(with("/follow", "k"), ElementsAre("/follow unknown_reference"));
   EXPECT_THAT(with("/follow", 1), ElementsAre("/follow wrong_type"));
   EXPECT_THAT(with("/design", "zip"), ::testing::Contains("/follow not_supported"));
+  EXPECT_THAT(with("/model/loads/0/follows", true), ElementsAre("/follow not_supported"));
+  EXPECT_THAT(with("/model/loads/0/fixed_line", true), ElementsAre("/follow not_supported"));
   EXPECT_THAT(with("/parameters/1/values", {1e-4, 3e-4, 2e-4}), ElementsAre("/follow not_supported"));
   EXPECT_THAT(with("/analysis/type", "path"), ElementsAre("/follow not_supported"));
   EXPECT_THAT(with("/outputs/0", "/summary/message"), ElementsAre("/follow not_supported"));

@@ -112,7 +112,7 @@ class Bash(unittest.TestCase):
         self.assertEqual(self.complete("snapthrough", "solve", "a.json", "--ta")[0], {"--table"})
 
     def test_values(self):
-        tables = {"points", "critical_points", "static", "buckling", "states"}
+        tables = {"points", "critical_points", "static", "buckling", "vibrations", "states"}
         self.assertEqual(self.complete("snapthrough", "solve", "--table", "")[0], tables)
         self.assertEqual(self.complete("snapthrough", "solve", "--table", "=")[0], tables)
         self.assertEqual(self.complete("snapthrough", "solve", "--table", "=", "cr")[0], {"critical_points"})
@@ -140,7 +140,7 @@ class OtherShells(unittest.TestCase):
             self.assertEqual(done.stderr, "")
             return {word.split("\t")[0] for word in done.stdout.splitlines()}
         self.assertLessEqual(set(commands()), complete("snapthrough "))
-        self.assertEqual(complete("snapthrough solve --table "), {"points", "critical_points", "static", "buckling", "states"})
+        self.assertEqual(complete("snapthrough solve --table "), {"points", "critical_points", "static", "buckling", "vibrations", "states"})
         for command in commands():
             long_names = {name for name in options(command) if name.startswith("--")}
             self.assertEqual({name for name in complete(f"snapthrough {command} --") if name.startswith("--")}, long_names)

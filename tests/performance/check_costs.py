@@ -17,6 +17,8 @@ ACCURACY = [("shallow_arch", 4.0), ("deep_arch", 4.0), ("frame", 4.0), ("shallow
 # (case, other case, most instructions of the first over the second): what one-sided contact may cost, and a
 # column that needs no mesh
 RATIOS = [("shallow_arch_k1e7", "deep_arch", 2.0), ("column_with_spring", "deep_arch", 0.03)]
+# (case, most instructions with three frequencies at each point of its path over those without)
+FREQUENCIES = [("shallow_arch", 2.0), ("shallow_arch_k1e7", 2.0), ("ring_k1200", 2.0), ("frame", 3.0)]
 # (what grows, two sizes, most power of the unknowns by which the instructions grow). A square frame has a front that
 # grows.
 GROWTH = [("elements", (100, 3000), 1.05), ("bays", (30, 300), 1.05), ("square", (30, 300), 1.4),
@@ -70,6 +72,9 @@ def main():
             if one not in at_default:
                 at_default[one] = instructions(probe, one, 1e-3)
         judge(f"{case} over {other}", at_default[case] / at_default[other], bound)
+    for case, bound in FREQUENCIES:
+        with_them, without = [instructions(probe, f"{what}:{case}", 1e-3) for what in ("frequencies", "path")]
+        judge(f"three frequencies along the path of {case}", with_them / without, bound)
     for part, sizes, bound in GROWTH:
         few, many = [instructions(probe, "grow:" + part, n) for n in sizes]
         less, more = [reported(run(probe, "grow:" + part, n, 1, False)[0], "unknowns") for n in sizes]

@@ -108,8 +108,41 @@ TEST(Vibration, OfAColumnFallsLinearlyWithItsLoad) {
           << factors[i] << " " << n;
 }
 
-/// A free ring: three motions without strain, then pairs. EA R^2 / EI = 1e9 leaves 1e-9 of extension.
-TEST(Vibration, OfAFreeRingIsHoppes) {
+/// Arches with and without a base, unloaded and at states with large displacements.
+///
+/// Source: tests/verification/data/arch_frequencies.py (Chebyshev collocation of the geometrically exact
+/// arch), radius and stiffness 1.
+TEST(Vibration, OfArchesUnderLoadIsThatOfCollocation) {
+  struct Row {
+    double degrees, EA, base, load;
+    bool clamped;
+    double squares[4];
+  };
+  const Row rows[] = {{120.0, 1e4, 0.0, 0.0, false, {47.93100219, 304.4188364, 1138.061812, 2808.951676}},
+                      {120.0, 1e4, 100.0, 0.0, false, {122.6516646, 396.1009464, 1231.564151, 2905.860387}},
+                      {215.0, 1e6, 0.0, 0.0, true, {3.758326251, 28.85911161, 112.6966244, 292.9355986}},
+                      {215.0, 1e6, 0.0, 3.0, true, {2.165607071, 19.74703744, 86.01042965, 256.0685351}},
+                      {215.0, 1e6, 0.0, 6.0, true, {1.903527356, 15.98066775, 41.79191705, 189.7991131}},
+                      {215.0, 1e6, 0.0, 8.5, true, {1.667718617, 15.73245704, 21.74934, 155.1835781}}};
+  for (const Row& row : rows) {
+    constexpr double kRadius = 100.0;
+    Model model = arch(row.degrees, row.EA / (kRadius * kRadius), 1.0, row.clamped);
+    model.sections[0].mass = 1.0;
+    if (row.base > 0.0) model.foundations = {winkler("arch", row.base / std::pow(kRadius, 4))};
+    const Result result = solved(model, vibration(4, {row.load}, 1e-8));
+    const Vibration& found = result.vibrations->at(0);
+    ASSERT_EQ(found.frequencies.squares.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(found.frequencies.squares[i] * std::pow(kRadius, 4) / row.squares[i], 1.0, 2e-8)
+          << row.degrees << " " << row.load << " " << i;
+    }
+  }
+}
+
+/// A ring, free or on a Winkler base K: radial amplitude w and tangential amplitude w / n of the waves n, so
+/// that omega^2 = n^2 / (n^2 + 1) (EI (n^2 - 1)^2 / R^4 + K) / m; the rotation is without strain.
+/// EA R^2 / EI = 1e9 leaves 1e-9 of extension.
+TEST(Vibration, OfARingIsHoppes) {
   Model model;
   const char* const ids[] = {"e", "n", "w", "s"};
   for (int i = 0; i < 4; ++i)
@@ -121,14 +154,22 @@ TEST(Vibration, OfAFreeRingIsHoppes) {
         {"m" + std::to_string(i), ids[i], ids[(i + 1) % 4], "s", ArcCurve{90.0}, false, false});
   Spring none{"none", at_node("e"), std::array{1.0, 0.0}};  // a model needs a support; this one has no force
   model.springs = {none};
-  const Result result = solved(model, vibration(17, {0.0}, 1e-7));
-  const std::vector<double>& squares = result.vibrations->at(0).frequencies.squares;
-  ASSERT_EQ(squares.size(), 17U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(squares[i], 0.0, 1e-9);
-  for (int n = 2; n <= 8; ++n) {
-    const double exact = n * n * std::pow(n * n - 1.0, 2) / (n * n + 1.0);
-    for (const int of_pair : {0, 1})
-      EXPECT_NEAR(squares[static_cast<std::size_t>(2 * n - 1 + of_pair)] / exact, 1.0, 2e-8) << n;
+  for (const double base : {0.0, 10.0}) {
+    for (const Member& member : model.members) {
+      if (base == 0.0) break;
+      model.foundations.push_back(winkler(member.id, base));
+      model.foundations.back().id = member.id;
+    }
+    const Result result = solved(model, vibration(17, {0.0}, 1e-7));
+    const std::vector<double>& squares = result.vibrations->at(0).frequencies.squares;
+    ASSERT_EQ(squares.size(), 17U);
+    EXPECT_NEAR(squares[0], 0.0, 1e-9);
+    for (int n = 1; n <= 8; ++n) {
+      const double exact = n * n / (n * n + 1.0) * (std::pow(n * n - 1.0, 2) + base);
+      for (const int of_pair : {0, 1})
+        EXPECT_NEAR(squares[static_cast<std::size_t>(2 * n - 1 + of_pair)], exact, 1e-9 + 2e-8 * exact)
+            << base << " " << n;
+    }
   }
 }
 

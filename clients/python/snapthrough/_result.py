@@ -20,6 +20,18 @@ def _column(name: str, key: str) -> str:
     return key if name == "monitors" else f"{name}:{key}"
 
 
+def _frequencies(rows: Optional[List[Optional[Dict[str, List[float]]]]]) -> Columns:
+    """Columns of the frequencies of rows, null where a row has none."""
+    names: List[str] = []
+    columns: List[List[Any]] = []
+    for field in ("omega_squared", "imaginary"):
+        lists = [(row or {}).get(field) or [] for row in rows or []]
+        for at in range(max(map(len, lists), default=0)):
+            names.append(f"{field}:{at + 1}")
+            columns.append([values[at] if at < len(values) else None for values in lists])
+    return names, columns
+
+
 def _points(document: Dict[str, Any]) -> Columns:
     branches = document["branches"]
     names, by_id = results.COLUMNS["Branch"]
@@ -31,7 +43,8 @@ def _points(document: Dict[str, Any]) -> Columns:
         series += [(branch.get(name) or {}).get(key) for name, key in pairs]
         for column, values in zip(columns, series):
             column.extend((list(values or []) + [None] * count)[:count])
-    return ["branch", "point", *names] + [_column(*pair) for pair in pairs], columns
+    more, frequencies = _frequencies([row for branch in branches for row in branch.get("frequencies") or []])
+    return ["branch", "point", *names] + [_column(*pair) for pair in pairs] + more, columns + frequencies
 
 
 def _critical_points(document: Dict[str, Any]) -> Columns:
@@ -48,7 +61,8 @@ def _static(document: Dict[str, Any]) -> Columns:
     names, by_id = results.COLUMNS["Static"]
     pairs = [(name, key) for name in by_id for key in _ids([table], name)]
     columns = [table.get(name) for name in names] + [table[name][key] for name, key in pairs]
-    return list(names) + [_column(*pair) for pair in pairs], columns
+    more, frequencies = _frequencies(table.get("frequencies"))
+    return list(names) + [_column(*pair) for pair in pairs] + more, columns + frequencies
 
 
 def _buckling(document: Dict[str, Any]) -> Columns:
@@ -124,7 +138,7 @@ class Result(results.ResultFields):
         return [name for name, (source, _) in _TABLES.items() if self._document.get(source)]
 
     def columns(self, table: Optional[str] = None) -> Dict[str, List[Any]]:
-        """A table as lists by column; all but "vibrations" have the columns of the CSV table (docs/service.md).
+        """A table as lists by column, those of the CSV table (docs/service.md).
 
         `table` is "points" (of paths), "critical_points", "static", "buckling", "vibrations" (one row a load factor and
         mode) or "states"; by default the first of points, vibrations, static, buckling and critical_points that is

@@ -83,7 +83,7 @@ class SameAnswers(WithService):
 
     def test_tables_have_the_columns_and_values_of_the_services_csv(self):
         for name, tables in {"frame": ["points", "critical_points", "states"], "static": ["static", "states"],
-                             "buckling": ["buckling"]}.items():
+                             "buckling": ["buckling"], "vibration": ["vibrations", "static", "states"]}.items():
             result = local().solve(request(name))
             job = self.client.wait(self.client.submit(request(name)))
             for table in tables:

@@ -87,7 +87,7 @@ springs.push({id: 'follows', at: {node: 'a'}, direction: [0, 1], stiffness: 3,
 springs.push({id: 'stop', at: {node: 'a'}, direction: [1, 0], stiffness: 'rigid', reaction: 'compression_only'});
 
 const loads: Schemas['Load'][] = [
-  {type: 'point', at: {node: 'b'}, force: [0, -1], moment: 0.1, pattern: 'constant', follows: true},
+  {type: 'point', at: {node: 'b'}, force: [0, -1], moment: 0.1, pattern: 'constant', follows: true, fixed_line: false},
   {type: 'distributed', member: 'beam', force: [0, -1], range: [0, 1], per: 'horizontal', pattern: 'proportional'},
   {type: 'pressure', member: 'beam', value: 1, side: 'left', pattern: 'proportional'},
   {type: 'distributed', member: 'beam', force: {along: [[0, [0, 0]], [1, [0, -2]]]}, axes: 'member'},

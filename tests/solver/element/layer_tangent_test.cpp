@@ -221,7 +221,8 @@ TEST_P(LayerTangent, IsTheDerivativeOfTheResidual) {
   }
 }
 
-/// The factorised tangent, with its inertia, is the tangent of the products.
+/// linearise() factorises the tangent that tangent_products() multiplies with, and counts its negative
+/// eigenvalues.
 TEST_P(LayerTangent, IsTheOneThatIsFactorised) {
   std::srand(5u);
   for (int draw = 0; draw < 12; ++draw) {

@@ -211,6 +211,57 @@ TEST_P(Tangent, OfVaryingPressureIsInvertedByTheElimination) {
   }
 }
 
+/// `everything` with forces that turn with their places, and forces that stay on their lines.
+Model with_following_forces(bool shearable) {
+  Model model = everything(shearable);
+  const auto add = [&](const Location& at, bool fixed_line, Pattern pattern) {
+    PointLoad load{at, {0.7, -1.1}, 0.0, pattern};
+    (fixed_line ? load.fixed_line : load.follows) = true;
+    model.loads.emplace_back(load);
+  };
+  for (const bool fixed_line : {false, true}) {
+    add({"", "left", 0.45}, fixed_line, Pattern::proportional);
+    add({"b", "", 0.0}, fixed_line, Pattern::constant);
+  }
+  return model;
+}
+
+TEST_P(Tangent, OfFollowingForces) {
+  const auto [order, shearable, rule] = GetParam();
+  std::srand(37u + static_cast<unsigned>(order));
+  const Structure structure =
+      make_structure(with_following_forces(shearable), fixed_mesh(6, order, rule), Geometry::nonlinear);
+  ASSERT_EQ(structure.follower_forces.size(), 4U);
+  StructuralProblem problem(structure);
+  constexpr double kStep = 1e-6;
+  const auto differences = [](const auto& function) -> Eigen::VectorXd {
+    return (function(kStep) - function(-kStep)) / (2.0 * kStep);
+  };
+  for (int trial = 0; trial < 3; ++trial) {
+    const Eigen::VectorXd y = random_state(problem, 0.3);
+    const Eigen::VectorXd x = Eigen::VectorXd::Random(problem.size());
+    const Eigen::VectorXd exact = problem.tangent_product(y, 1.3, x);
+    const auto residual_at = [&](double step) {
+      Eigen::VectorXd f;
+      problem.residual(y + step * x, 1.3, f);
+      return f;
+    };
+    EXPECT_LT((differences(residual_at) - exact).norm(), 1e-6 * exact.norm()) << "trial " << trial;
+    const Eigen::VectorXd moved = Eigen::VectorXd::Random(problem.size());
+    const PathDirection along{moved, 0.7};
+    const auto product_at = [&](double step) {
+      return Eigen::VectorXd(problem.tangent_product(y + step * along.y, 1.3 + step * along.lambda, x));
+    };
+    const Eigen::VectorXd change = problem.tangent_change(y, 1.3, along, x);
+    EXPECT_LT((differences(product_at) - change).norm(), 1e-6 * change.norm()) << "trial " << trial;
+    Eigen::VectorXd residual;
+    problem.linearise(y, 1.3, residual);
+    Eigen::VectorXd solved = exact;
+    problem.solve(solved);
+    EXPECT_LT((solved - x).norm(), 1e-7 * x.norm()) << "trial " << trial;
+  }
+}
+
 /// Haynsworth: negative eigenvalues of the full mixed matrix = one a stress and multiplier + those of the
 /// stiffness.
 class LowOrderTangent : public Tangent {};
