@@ -252,7 +252,7 @@ test('each of three mistakes in the JSON is told at its place, and a right text 
 });
 
 test('a vibration analysis has its frequencies in a chart and a table, and draws the motion that is chosen', async () => {
-  const page = await openPage(browser, `${service.url}/#/model`);
+  const page = await openPage(browser, `${service.url}/#/model`, { reducedMotion: 'reduce' });
   await settled(page);
   const editor = page.locator('.cm-content');
   await editor.click();
@@ -265,12 +265,21 @@ test('a vibration analysis has its frequencies in a chart and a table, and draws
   const first = await drawn();
   await card.getByRole('button', { name: 'Draw motion 2' }).click();
   await page.waitForFunction((d) => document.querySelector('.drawing-card .mode')?.getAttribute('d') !== d, first);
+  const second = await drawn();
+  const animate = card.getByRole('button', { name: 'Animate' });
+  assert.equal(await animate.getAttribute('aria-pressed'), 'false', 'nothing moves where less motion is preferred');
+  await animate.press('Enter');
+  await page.waitForFunction((d) => document.querySelector('.drawing-card .mode')?.getAttribute('d') !== d, second);
+  await animate.press('Enter');
+  await page.waitForFunction((d) => document.querySelector('.drawing-card .mode')?.getAttribute('d') === d, second);
   await card.getByRole('combobox').selectOption({ label: '25' });
   await card.locator('.motions td', { hasText: 'flutters' }).nth(1).waitFor();
   await page.getByRole('tab', { name: 'Model' }).click();
   await page.locator('.model-form summary', { hasText: 'Loads' }).click();
   await page.getByLabel('turns with its place').uncheck();
   await card.locator('.motions td', { hasText: 'diverges' }).first().waitFor();  // Euler's load is pi^2 / 4
+  await card.getByRole('button', { name: 'Draw motion 1' }).click();
+  await card.locator('button:disabled', { hasText: 'Animate' }).waitFor();  // a motion that diverges does not oscillate
   assert.deepEqual(await violations(page), []);
   await close(page);
 });

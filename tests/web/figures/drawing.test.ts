@@ -185,6 +185,20 @@ test("a force that follows turns with its place, another one keeps its direction
   }
 });
 
+test("a force on a fixed line stays on it, with a plate to its place", () => {
+  const { member, fraction } = { member: "column", fraction: 1 };
+  const { request, result } = readCase("beck");
+  const state = must(result.states[0]);
+  const still = must(state.members[member]);
+  const raised = { ...still, y: still.y0.map((y, i) => y + 0.3 * (must(still.x0[i]) / must(still.x0.at(-1)))) };
+  const loads = [{ type: "point" as const, at: { member, fraction }, force: [-1, 0] as [number, number], fixed_line: true }];
+  const picture = drawingFigure({ model: { ...request.model, loads }, state: { ...state, members: { [member]: raised } } }, size);
+  const [plate, shaft] = piecesOf(only(picture, "load"));
+  const [place, foot] = [must(must(plate)[0]), must(must(plate)[1])];
+  assert.ok(foot.y > place.y + 20 && Math.abs(foot.x - place.x) < 0.1, "the plate goes straight down to the line");
+  assert.ok(must(shaft).every(({ y }) => Math.abs(y - foot.y) < 0.1), "the force is on the line");
+});
+
 test("loads are those of the load factor, unless they are constant", () => {
   const at = { member: "m", fraction: 0.5 };
   const load = { type: "point" as const, at, force: [0, -2] as [number, number] };

@@ -1,8 +1,9 @@
 // One document: its sections at the side, its text beside them.
 
-import { useEffect, useMemo } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import { documentAddress } from "./contents";
 import { Blocks, readMarkdown } from "./markdown";
+import { useSection } from "./section";
 
 interface DocumentProps {
   name: string;
@@ -13,12 +14,7 @@ interface DocumentProps {
 
 export function MarkdownView({ name, text, section }: DocumentProps) {
   const { tokens, sections } = useMemo(() => readMarkdown(text), [text]);
-  useEffect(() => {
-    const heading = section === "" ? null : document.getElementById(section);
-    heading?.scrollIntoView();
-    heading?.focus({ preventScroll: true });
-    if (section === "") scrollTo(0, 0);
-  }, [text, section]);
+  useSection(text, section);
   return (
     <>
       <nav class="card sections" aria-label="Sections">

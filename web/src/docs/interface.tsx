@@ -1,9 +1,10 @@
 // The interface's document as a page: every operation, then every schema with its fields, bounds and units.
 
 import type { ComponentChildren } from "preact";
-import { useEffect, useMemo } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import { documentAddress } from "./contents";
 import { boundsOf, callsOf, curlOf, nameOf, reachable, type Answer, type Call, type OpenApi, type Schema } from "./openapi";
+import { useSection } from "./section";
 
 const kName = "interface";
 /** What explains the schemas that each of these refers to, the first that does. */
@@ -131,12 +132,7 @@ export function InterfaceView({ text, section }: { text: string; section: string
   const calls = useMemo(() => callsOf(api, api.paths), [api]);
   const explained = useMemo(() => kExplained.map(([root, name]): [Set<string>, string] =>
     [reachable(api, { $ref: `#/components/schemas/${root}` }), name]), [api]);
-  useEffect(() => {
-    const heading = section === "" ? null : document.getElementById(section);
-    heading?.scrollIntoView();
-    heading?.focus({ preventScroll: true });
-    if (section === "") scrollTo(0, 0);
-  }, [text, section]);
+  useSection(text, section);
   const at = (name: string, heading: string): ComponentChildren => (
     <li key={name} class="deeper"><a href={documentAddress(kName, name)}>{heading}</a></li>);
   return (

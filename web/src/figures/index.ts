@@ -2,7 +2,7 @@
 
 export * from "./shape";
 export * from "./numbers";
-export { drawingCaption, drawingFigure, drawingView, suggestedFactor } from "./drawing/drawing";
+export { drawingCaption, drawingFigure, drawingView, modeMotion, suggestedFactor } from "./drawing/drawing";
 export { locate, stateAt, type Located, type LocatedState } from "./drawing/locate";
 export { toModel, toPixel, zoomed, type DrawingInput, type View } from "./drawing/scene";
 export {
@@ -19,7 +19,7 @@ export {
 export { drawnLaw, lawChart, lawFigure, type LawChart, type LawInput } from "./chart/law";
 export { bucklingFigure, nearestMode, type BucklingInput } from "./chart/buckling";
 export {
-  frequencyChart, frequencyFigure, hasFrequencies, motionsOf, nearestMotion, type ChosenMotion, type FrequencyChart,
+  frequencyChart, frequencyFigure, hasFrequencies, motionsOf, nearestMotion, quadratureOf, type ChosenMotion, type FrequencyChart,
   type FrequencyInput, type Motion,
 } from "./chart/frequencies";
 export { nearestInSweep, sweepLine, sweepLineChart, type SweepLineChart, type SweepLineInput } from "./chart/sweep_line";

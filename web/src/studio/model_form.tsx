@@ -157,7 +157,10 @@ function Item({ list, index, ...form }: FormProps & { list: string; index: numbe
       {list === "springs" || list === "foundations"
         ? <LawFigure list={list} support={fields} units={form.request.model.units} /> : null}
       {list === "loads" && fields["type"] === "point"
-        ? <FlagField {...form} pointer={`${at}/follows`} name="turns with its place" /> : null}
+        ? <>
+            <FlagField {...form} pointer={`${at}/follows`} name="turns with its place" />
+            <FlagField {...form} pointer={`${at}/fixed_line`} name="stays on its line" />
+          </> : null}
       {list === "supports" ? <FixedField {...form} pointer={`${at}/fixed`} /> : null}
     </div>
   );

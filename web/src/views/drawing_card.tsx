@@ -1,13 +1,13 @@
 // The drawing of a state: pan, zoom, and what the state says at the place that is pointed at.
 
-import { useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Mode, Model, State } from "../api/documents";
 import { shapeNode } from "../app/shape_view";
 import { useSize } from "../app/size";
 import { fileName, savePng, saveSvg } from "../export/files";
 import {
-  drawingFigure, drawingView, formatWithUnit, locate, suggestedFactor, unitOf, zoomed, type DrawingInput, type Located,
-  type Pixel, type Size, type View,
+  drawingFigure, drawingView, formatWithUnit, locate, modeMotion, suggestedFactor, unitOf, zoomed, type DrawingInput, type Located,
+  type Pixel, type Shape, type Size, type View,
 } from "../figures";
 import { Card, Menu } from "./card";
 
@@ -20,6 +20,10 @@ interface DrawingProps {
   model: Model;
   state: State | null;
   mode: Mode | null;
+  /** The shape of the mode's motion a quarter of a period later; null where the whole motion then passes the equilibrium. */
+  quadrature: Mode | null;
+  /** Whether the mode swings about the equilibrium. */
+  animated: boolean;
   loadFactor: number | null;
   unstable: boolean;
   room: readonly State[];
@@ -29,6 +33,7 @@ interface DrawingProps {
 }
 
 const kZoomStep = 1.25;
+const kPeriod = 2000;  // ms, the period of an animated mode, whatever its frequency is
 
 function pixelIn(element: Element, event: MouseEvent): Pixel {
   const box = element.getBoundingClientRect();
@@ -62,14 +67,41 @@ const kMoves: Record<string, readonly [number, number]> = {
   ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1],
 };
 
-function Picture({ input, size, onCursor }: { input: DrawingInput; size: Size; onCursor: DrawingProps["onCursor"] }) {
+/** Draws the lines of a mode that swings, and nothing else, at each frame. The phase is 0 when the component appears. */
+function MovingMode({ motion }: { motion: (phase: number) => Shape }) {
+  const [phase, setPhase] = useState(0);
+  useEffect(() => {
+    let begin: number | null = null;
+    const show = (time: number): void => {
+      begin ??= time;
+      setPhase(2 * Math.PI * (((time - begin) / kPeriod) % 1));
+      frame = requestAnimationFrame(show);
+    };
+    let frame = requestAnimationFrame(show);
+    return () => cancelAnimationFrame(frame);
+  }, []);
+  return <>{shapeNode(motion(phase))}</>;
+}
+
+interface PictureProps {
+  input: DrawingInput;
+  size: Size;
+  animated: boolean;
+  onCursor: DrawingProps["onCursor"];
+}
+
+function Picture({ input, size, animated, onCursor }: PictureProps) {
   const fitted = useMemo(() => drawingView(input, size), [input.model, input.room, input.factor, size]);
   const [moved, setMoved] = useState<{ fitted: View; view: View } | null>(null);
   const view = moved?.fitted === fitted ? moved.view : fitted;
   const [told, setTold] = useState<Located | null>(null);
   const drag = useRef<Pixel | null>(null);
   const setView = (next: View): void => setMoved({ fitted, view: next });
-  const figure = useMemo(() => shapeNode(drawingFigure(input, size, view)), [input, size, view]);
+  const figure = useMemo(() => {
+    const motion = animated ? modeMotion(input, view) : null;
+    return shapeNode(drawingFigure(input, size, view), undefined, (shape, key) =>
+      motion && shape.attributes["class"] === "modes" ? <MovingMode key={key} motion={motion} /> : null);
+  }, [input, size, view, animated]);
   const middle = { x: size.width / 2, y: size.height / 2 };
   const point = (event: PointerEvent): void => {
     const at = pixelIn(event.currentTarget as Element, event);
@@ -118,10 +150,10 @@ function Picture({ input, size, onCursor }: { input: DrawingInput; size: Size; o
 export function DrawingCard(props: DrawingProps) {
   const [place, size] = useSize<HTMLDivElement>();
   const [enlarged, setEnlarged] = useState(false);
-  const { model, state, mode, loadFactor, unstable, room, cursor } = props;
+  const { model, state, mode, quadrature, loadFactor, unstable, room, cursor } = props;
   const factor = enlarged && state ? suggestedFactor({ model, state }) : 1;
-  const input = useMemo<DrawingInput>(() => ({ model, state, mode, loadFactor, unstable, room, cursor, factor }),
-                                      [model, state, mode, loadFactor, unstable, room, cursor, factor]);
+  const input = useMemo<DrawingInput>(() => ({ model, state, mode, quadrature, loadFactor, unstable, room, cursor, factor }),
+                                      [model, state, mode, quadrature, loadFactor, unstable, room, cursor, factor]);
   const small = state !== null && suggestedFactor({ model, state }) > 1;
   const name = fileName(model.title ?? "", "");
   const take = (): ReturnType<typeof drawingFigure> => drawingFigure({ ...input, cursor: null }, size ?? { width: 600, height: 500 });
@@ -138,7 +170,9 @@ export function DrawingCard(props: DrawingProps) {
         ]} />
       </>
     }>
-      <div class="fill" ref={place}>{size && size.height > 20 ? <Picture input={input} size={size} onCursor={props.onCursor} /> : null}</div>
+      <div class="fill" ref={place}>
+        {size && size.height > 20 ? <Picture input={input} size={size} animated={props.animated} onCursor={props.onCursor} /> : null}
+      </div>
     </Card>
   );
 }

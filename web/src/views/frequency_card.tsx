@@ -68,10 +68,15 @@ interface VibrationProps {
   vibrations: readonly Vibration[];
   chosen: ChosenMotion;
   onChosen: (chosen: ChosenMotion) => void;
+  /** Whether the chosen motion oscillates, so that it can be animated. */
+  oscillates: boolean;
+  /** Whether motions that oscillate swing in the drawing. */
+  animated: boolean;
+  onAnimated: (animated: boolean) => void;
 }
 
 /** The frequencies of a vibration analysis: a chart of all load factors, and a table of the chosen one. */
-export function VibrationCard({ run, vibrations, chosen, onChosen }: VibrationProps) {
+export function VibrationCard({ run, vibrations, chosen, onChosen, oscillates, animated, onAnimated }: VibrationProps) {
   const [place, size] = useSize<HTMLDivElement>();
   const [twin, setTwin] = useState(false);
   const input: FrequencyInput = { result: run.result, chosen };
@@ -89,6 +94,8 @@ export function VibrationCard({ run, vibrations, chosen, onChosen }: VibrationPr
             </select>
           </label>
         ) : null}
+        <button type="button" aria-pressed={oscillates && animated} disabled={!oscillates} onClick={() => onAnimated(!animated)}
+                title={oscillates ? "The motion swings in the drawing, with a period of 2 seconds" : "This motion grows without oscillating"}>Animate</button>
         <Menu label="Export" items={[
           { text: twin ? "Show the chart" : "Show as table", act: () => setTwin(!twin) },
           { text: "SVG", act: () => saveSvg(`${name}.svg`, take()) }, { text: "PNG", act: () => void savePng(`${name}.png`, take()) },

@@ -3,7 +3,7 @@
 
 import { useMemo, useState } from "preact/hooks";
 import type { Branch, Mode, RequestDocument, State, Vibration } from "../api/documents";
-import { branchesOf, formatNumber, softestPoint, type ChosenMotion, type PathShadow } from "../figures";
+import { branchesOf, formatNumber, motionsOf, quadratureOf, softestPoint, type ChosenMotion, type PathShadow } from "../figures";
 import type { Choice } from "../model/gallery";
 import { isUnstable, lengthOf, stationFor, type Run } from "../model/run";
 import { DrawingCard, type Pointed } from "./drawing_card";
@@ -75,18 +75,25 @@ interface ShownVibration {
   /** The motion that is shown: the chosen one, as far as the result has it. */
   chosen: ChosenMotion;
   mode: Mode | null;
+  quadrature: Mode | null;
+  /** Whether the motion oscillates: one that diverges has no period. */
+  oscillates: boolean;
   /** The equilibrium that vibrates. */
   state: State | null;
 }
 
 /** What is shown of a vibration analysis; null for a result of another one. */
 function vibrationOf(run: Run | null, wanted: ChosenMotion): ShownVibration | null {
-  const { vibrations: all, static: table, states } = run?.result ?? {};
-  if (!all || all.length === 0) return null;
+  const { vibrations: all = [], static: table, states } = run?.result ?? {};
   const row = Math.min(all.length - 1, wanted.row);
-  const motion = Math.min((all[row]?.modes.length ?? 1) - 1, wanted.motion);
-  const at = table?.state[table.load_factor.indexOf(all[row]?.load_factor ?? Number.NaN)];
-  return { all, chosen: { row, motion }, mode: all[row]?.modes[motion] ?? null, state: at == null ? null : states?.[at] ?? null };
+  const one = all[row];
+  if (!one) return null;
+  const motion = Math.min(one.modes.length - 1, wanted.motion);
+  const at = table?.state[table.load_factor.indexOf(one.load_factor)];
+  return {
+    all, chosen: { row, motion }, mode: one.modes[motion] ?? null, quadrature: quadratureOf(one, motion),
+    oscillates: motionsOf(one.frequencies)[motion]?.kind !== "diverges", state: at == null ? null : states?.[at] ?? null,
+  };
 }
 
 const kNothing: readonly State[] = [];
@@ -95,13 +102,14 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
   const [marked, setMarked] = useState<Marked | null>(null);
   const [modeNumber, setModeNumber] = useState(0);
   const [motion, setMotion] = useState<ChosenMotion>({ row: 0, motion: 0 });
+  const [animated, setAnimated] = useState(() => !matchMedia("(prefers-reduced-motion: reduce)").matches);
   const [cursor, setCursor] = useState<Pointed | null>(null);
   const station = run?.stations[run ? stationFor(run, choice) : -1];
   const point = typeof marked === "number" ? run?.result.critical_points[marked] : undefined;
   const softest = marked === "softest" ? run?.result.summary.softest?.mode : null;
   const pointState = point?.state == null ? undefined : run?.result.states[point.state];
   const buckling = run?.result.buckling;
-  const vibration = vibrationOf(run, motion);
+  const vibration = useMemo(() => vibrationOf(run, motion), [run, motion]);
   const state = pointState ?? vibration?.state ?? station?.state ?? null;
   const room = useMemo(() => run?.stations.map((one) => one.state) ?? kNothing, [run]);
   const first = request.analysis.type === "critical" ? run?.result.critical_points[0]?.mode : null;
@@ -121,10 +129,12 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
   return (
     <>
       <DrawingCard class={buckling ? "alone" : ""} model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
+                   quadrature={vibration?.quadrature ?? null} animated={animated && vibration?.oscillates === true}
                    unstable={run !== null && station !== undefined && !pointState && !vibration && isUnstable(run, station)}
                    loadFactor={buckling?.load_factors[modeNumber] ?? null} />
       {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} />
-        : run && vibration ? <VibrationCard run={run} vibrations={vibration.all} chosen={vibration.chosen} onChosen={setMotion} />
+        : run && vibration ? <VibrationCard run={run} vibrations={vibration.all} chosen={vibration.chosen} onChosen={setMotion}
+                                            oscillates={vibration.oscillates} animated={animated} onAnimated={setAnimated} />
         : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
                     note={note} marked={marked} onMark={mark} />}
       {buckling ? null : <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />}

@@ -8,6 +8,8 @@ import { legendHeight, legendShape, markEntries, type LegendEntry } from "./lege
 import { mark } from "./marks";
 
 type Frequencies = components["schemas"]["Frequencies"];
+type Mode = components["schemas"]["Mode"];
+type Vibration = components["schemas"]["Vibration"];
 
 /** What a natural motion does: it vibrates, it is one of a pair whose vibrations grow, or it grows without vibrating. */
 export type MotionKind = "vibrates" | "flutters" | "diverges";
@@ -35,6 +37,28 @@ export function motionsOf(frequencies: Frequencies): Motion[] {
     const kind = square < -kRounding * largest ? "diverges" : "vibrates";
     return { kind, omega: Math.sign(square) * Math.sqrt(Math.abs(square)), square, imaginary };
   });
+}
+
+function opposite(mode: Mode): Mode {
+  const negative = (values: readonly number[]): number[] => values.map((value) => -value);
+  return {
+    members: Object.fromEntries(Object.entries(mode.members).map(([id, { s, u, v, rotation }]) =>
+      [id, { s, u: negative(u), v: negative(v), rotation: negative(rotation) }])),
+  };
+}
+
+/**
+ * The shape of a motion a quarter of a period after that of its mode; null where the whole motion then passes the equilibrium.
+ *
+ * A pair that flutters has omega squared a - ib and a + ib, b > 0, and lists the parts R and I of the motion R + iI of the second.
+ * The vibration that grows is that of the first, R - iI with omega = c - id, c and d > 0: Re((R - iI) exp(ict)) is
+ * R cos ct + I sin ct. A motion that starts at I continues with -R.
+ */
+export function quadratureOf({ frequencies, modes }: Vibration, motion: number): Mode | null {
+  const imaginary = frequencies.imaginary?.[motion] ?? 0;
+  if (imaginary < 0) return modes[motion + 1] ?? null;
+  const real = imaginary > 0 ? modes[motion - 1] : undefined;
+  return real ? opposite(real) : null;
 }
 
 /** The parts of a result that frequencies are drawn from. */

@@ -18,21 +18,45 @@ function pixels(x: readonly number[], y: readonly number[], view: View): Pixel[]
   return x.map((value, i) => toPixel(view, { x: value, y: at(y, i) }));
 }
 
-function modeShapes(scene: Scene, view: View, taken: Occupancy): Shape | null {
-  const mode = scene.input.mode;
-  if (!mode) return null;
-  const amplitude = kModeShare * scene.extent;
-  const lines = Object.entries(mode.members).map(([id, shapeOfMember]) => {
-    const member = scene.members.get(id);
-    if (!member) return null;
-    const points = shapeOfMember.s.map((s, i) => toPixel(view, {
-      x: interpolate(member.s, member.x, s) + amplitude * at(shapeOfMember.u, i),
-      y: interpolate(member.s, member.y, s) + amplitude * at(shapeOfMember.v, i),
-    }));
-    taken.addLine(points, 30);
-    return path("mode", points);
+/**
+ * The lines of the mode, a list of pixels for each member, by the phase of the motion in radians: `mode` is the shape at 0,
+ * `quadrature` that at pi / 2, and minus `mode` that at pi.
+ */
+function modeLines({ input, members, extent }: Scene, view: View): (phase: number) => Pixel[][] {
+  const amplitude = kModeShare * extent;
+  const lines = Object.entries(input.mode?.members ?? {}).flatMap(([id, shapeOfMember]) => {
+    const member = members.get(id);
+    const quadrature = input.quadrature?.members[id];
+    if (!member) return [];
+    return [shapeOfMember.s.map((s, i) => ({
+      x: interpolate(member.s, member.x, s), u: at(shapeOfMember.u, i), uLater: quadrature ? at(quadrature.u, i) : 0,
+      y: interpolate(member.s, member.y, s), v: at(shapeOfMember.v, i), vLater: quadrature ? at(quadrature.v, i) : 0,
+    }))];
   });
-  return group("modes", ...lines);
+  return (phase) => {
+    const now = Math.cos(phase);
+    const later = Math.sin(phase);
+    return lines.map((line) => line.map(({ x, u, uLater, y, v, vLater }) => toPixel(view, {
+      x: x + amplitude * (now * u + later * uLater), y: y + amplitude * (now * v + later * vLater),
+    })));
+  };
+}
+
+function modeGroup(lines: readonly Pixel[][]): Shape {
+  return group("modes", ...lines.map((points) => path("mode", points)));
+}
+
+/** The group `modes` of `drawingFigure` by the phase of the motion in radians; that of phase 0 is in the figure. */
+export function modeMotion(input: DrawingInput, view: View): (phase: number) => Shape {
+  const lines = modeLines(makeScene(input), view);
+  return (phase) => modeGroup(lines(phase));
+}
+
+function modeShapes(scene: Scene, view: View, taken: Occupancy): Shape | null {
+  if (!scene.input.mode) return null;
+  const lines = modeLines(scene, view)(0);
+  for (const points of lines) taken.addLine(points, 30);
+  return modeGroup(lines);
 }
 
 /** The undeformed axes, and over them the deformed ones; both take room that labels keep away from. */

@@ -59,15 +59,23 @@ function turned([fx, fy]: readonly [number, number], { normal, tangent }: Place)
   return [cosine * fx - sine * fy, sine * fx + cosine * fy];
 }
 
+/** The place nearest to a displaced one on the line of a force through the undeformed one. */
+function footOnLine({ still, moved }: Place, [fx, fy]: readonly [number, number]): Point {
+  const share = ((moved.x - still.x) * fx + (moved.y - still.y) * fy) / (fx * fx + fy * fy);
+  return { x: still.x + share * fx, y: still.y + share * fy };
+}
+
 function pointArrow(load: PointLoad, scene: Scene, view: View, largest: number, arrows: Arrows): void {
   const place = placeOf(scene, load.at);
   if (!place) return;
   const factor = factorOf(load, scene);
-  const tip = toPixel(view, place.moved);
+  const at = toPixel(view, place.moved);
   const unit = (quantity: Quantity) => unitOf(scene.input.model.units, quantity);
   const [fx, fy] = load.follows ? turned(load.force, place) : load.force;
   const size = Math.hypot(fx, fy);
   if (size > 0) {
+    const tip = load.fixed_line ? toPixel(view, footOnLine(place, load.force)) : at;
+    if (load.fixed_line) arrows.lines += pathData([at, tip]);
     const sign = Math.sign(senseOf(factor));
     const length = kPointArrow * Math.max(0.45, size / largest);
     const tail = { x: tip.x - (sign * length * fx) / size, y: tip.y + (sign * length * fy) / size };
@@ -76,9 +84,9 @@ function pointArrow(load: PointLoad, scene: Scene, view: View, largest: number, 
     arrows.notes.push({ at: tail, text: formatWithUnit(Math.abs(factor) * size, unit("force")), size });
   }
   if (load.moment) {
-    addMoment(tip, load.moment * senseOf(factor) > 0, arrows);
+    addMoment(at, load.moment * senseOf(factor) > 0, arrows);
     arrows.notes.push({
-      at: { x: tip.x + 14, y: tip.y - 14 },
+      at: { x: at.x + 14, y: at.y - 14 },
       text: formatWithUnit(Math.abs(factor * load.moment), unit("moment")), size: Math.abs(load.moment),
     });
   }

@@ -23,6 +23,8 @@ export interface DrawingInput {
   state?: State | null | undefined;
   /** A mode drawn over the state, or over the undeformed axis. */
   mode?: Mode | null | undefined;
+  /** The shape of the mode's motion a quarter of a period later; left out where the whole motion then passes the equilibrium. */
+  quadrature?: Mode | null | undefined;
   /** Displacements are drawn so many times as large; 1, true scale, when left out. */
   factor?: number | undefined;
   /** The load factor when there is no state, such as that of a buckling mode. */
