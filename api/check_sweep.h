@@ -30,7 +30,7 @@ void check_values(const SweepParameter& parameter, const Value& values);
 
 /// Reports a range with log spacing that is not positive, or that gives no finite number at a target.
 /// @pre the targets were read, and the parameter has a range
-void check_range(const SweepParameter& parameter, const Value& at);
+void check_range(const SweepParameter& parameter, const Value& value);
 
 /// Reports labels that are empty, repeated, or not as many as values. @pre the values were read
 void check_labels(const SweepParameter& parameter, const Value& label);

@@ -23,7 +23,7 @@ class CoupledSolution {
   void prepare(std::span<const Coupling> couplings, Eigen::Index size,
                const std::function<void(Eigen::Ref<Eigen::MatrixXd>)>& solve);
   /// x := J^-1 r from x = S^-1 r.
-  void correct(Eigen::Ref<Eigen::VectorXd> x) const { part_.correct(x); }
+  void correct(const Eigen::Ref<Eigen::VectorXd>& x) const { part_.correct(x); }
   /// Number of negative eigenvalues of M.
   [[nodiscard]] int negative() const { return negative_; }
   /// log |det J / det S|.

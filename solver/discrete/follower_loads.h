@@ -68,7 +68,7 @@ class FollowerLoads {
   /// @brief Whether corrections are those of J^T, from the next prepare() on.
   void transpose(bool transposed) { transposed_ = transposed; }
   /// x := J^-1 r from x = S^-1 r.
-  void correct(Eigen::Ref<Eigen::VectorXd> x) const { part_.correct(x); }
+  void correct(const Eigen::Ref<Eigen::VectorXd>& x) const { part_.correct(x); }
   /// Adds L R^T direction at the unknowns y to `out`.
   void add_product(const Eigen::VectorXd& y, const LoadFactors& factors,
                    const Eigen::Ref<const Eigen::VectorXd>& direction, Eigen::Ref<Eigen::VectorXd> out) const;

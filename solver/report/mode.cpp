@@ -121,7 +121,7 @@ std::string motion_text(const Mode& mode, const Model& model) {
   double largest = 0.0;
   std::size_t moved = 0;  // index of the member
   std::size_t place = 0;
-  for (std::size_t m = 0; m < mode.members.size(); ++m)
+  for (std::size_t m = 0; m < mode.members.size(); ++m) {
     for (std::size_t i = 0; i < mode.members[m].s.size(); ++i) {
       const double size = std::hypot(mode.members[m].u[i], mode.members[m].v[i]);
       if (size <= largest * ModeLimits::larger) continue;
@@ -129,6 +129,7 @@ std::string motion_text(const Mode& mode, const Model& model) {
       moved = m;
       place = i;
     }
+  }
   if (largest == 0.0) return "turns members only";
   const MemberMode& along = mode.members[moved];
   std::string where = "s = " + rounded(along.s[place]) + " of member \"" + along.id + "\"";
