@@ -204,12 +204,13 @@ StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, co
 
 /// The event at a root, with the motion of the pair nearest to a mean of eigenvalues; of damped vibrations
 /// nearest to that of the growing one.
-CriticalEvent FlutterSearch::event_at(const LocatedRoot& root, double mean) {
+std::optional<CriticalEvent> FlutterSearch::event_at(const LocatedRoot& root, double mean) {
   CriticalEvent event;
   event.type = CriticalType::flutter;
   event.point = root.root;
   // the zero is nearer than the bracket is wide, and other meshes have it a little beside
-  const double share = root.value_before / (root.value_before - root.value_after);
+  const double fall = root.value_before - root.value_after;
+  const double share = fall != 0.0 ? root.value_before / fall : 0.5;
   event.point.y = root.before.y + share * (root.after.y - root.before.y);
   event.point.lambda = root.before.lambda + share * (root.after.lambda - root.before.lambda);
   event.multiplicity = 2;
@@ -217,6 +218,7 @@ CriticalEvent FlutterSearch::event_at(const LocatedRoot& root, double mean) {
   event.bracket_loads[1] = root.after.lambda;
   const Sample at = sample(event.point);
   const Squares& squares = at.motions.squares;
+  if (squares.size() < 2) return std::nullopt;  // the search for natural motions has failed there
   const Pair pair = nearest(squares, is_damped(model_.damping) ? at.growing.square : mean);
   event.null = at.motions.motions.col(static_cast<Eigen::Index>(pair.first));
   return event;

@@ -61,7 +61,7 @@ class FlutterSearch {
   [[nodiscard]] std::optional<CriticalEvent> locate(PointSolver& solver, const Sample& from, const Sample& to,
                                                     double tolerance);
 
-  [[nodiscard]] CriticalEvent event_at(const LocatedRoot& root, double mean);
+  [[nodiscard]] std::optional<CriticalEvent> event_at(const LocatedRoot& root, double mean);
 
   StructuralProblem problem_;
   const Structure& structure_;

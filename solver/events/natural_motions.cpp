@@ -299,6 +299,10 @@ bool is_complete(ShiftedInverse& inverse, double shift, const NaturalMotions& fo
 }  // namespace
 
 void MotionSearch::begin_with(const NaturalMotions& found) {
+  if (!found.motions.allFinite()) {
+    near.resize(0, 0);
+    return;
+  }
   near = found.motions;
   for (const auto& square : found.squares) scale = std::max(scale, std::abs(square));
 }
