@@ -304,6 +304,7 @@ void MotionSearch::begin_with(const NaturalMotions& found) {
     return;
   }
   near = found.motions;
+  scale = 0.0;
   for (const auto& square : found.squares) scale = std::max(scale, std::abs(square));
 }
 
