@@ -275,8 +275,7 @@ void check_follow(const SweepData& data, const Value& follow) {
   if (model.is_object() && has_following_force(model)) {
     follow.report("not_supported",
                   "forces that follow the structure or stay on a line may make it flutter, and a followed "
-                  "curve knows no flutter: "
-                  "leave follow out");
+                  "curve knows no flutter: leave follow out");
   }
   for (const SweepOutput& output : data.outputs) {
     if (!is_output_of_curve(output, data.followed.locus)) {

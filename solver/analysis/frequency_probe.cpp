@@ -6,10 +6,12 @@
 namespace snapthrough {
 namespace {
 
-/// Relative error of the frequencies of rows, beside that of the mesh.
-constexpr double kOnGivenMesh = 1e-9;
-constexpr double kMost = 1e-6;
-constexpr double kOverAccuracy = 1e-3;
+/// Relative errors of the squares of frequencies of paths and static analyses, beside the error of the mesh.
+struct RowTolerance {
+  static constexpr double on_given_mesh = 1e-9;
+  static constexpr double most = 1e-6;           ///< where the accuracy chooses the mesh, at most
+  static constexpr double over_accuracy = 1e-3;  ///< over the accuracy that was asked for
+};
 
 }  // namespace
 
@@ -19,7 +21,9 @@ FrequencyProbe::FrequencyProbe(const Structure& structure, const Model& model, c
   search_.counted = analysis.type == AnalysisType::vibration;
   search_.count = search_.counted ? analysis.modes : analysis.output.frequencies;
   if (search_.counted) return;
-  search_.tolerance = mesh.fixed_mesh ? kOnGivenMesh : std::min(kMost, kOverAccuracy * mesh.accuracy);
+  search_.tolerance = mesh.fixed_mesh
+                          ? RowTolerance::on_given_mesh
+                          : std::min(RowTolerance::most, RowTolerance::over_accuracy * mesh.accuracy);
 }
 
 std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, double lambda) {

@@ -43,7 +43,8 @@ Vec2 turned(const Vec2& force, double angle) {
   return {c * force[0] - s * force[1], s * force[0] + c * force[1]};
 }
 
-/// Force and moment that a force F adds to the dead force at a motion of its place.
+/// Force and moment on the place of a force, beyond those of the dead force F, where the place has moved by
+/// `at`.
 Vec3 added(const FollowerForce& force, const Vec2& F, const Vec3& at) {
   if (force.fixed_line) return {0.0, 0.0, at[1] * F[0] - at[0] * F[1]};
   const Vec2 now = turned(F, at[2]);

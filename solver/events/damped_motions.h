@@ -7,7 +7,7 @@
 
 namespace snapthrough {
 
-/// A damped vibration exp(s t).
+/// Damped vibration x exp(s t) about an equilibrium, with complex s.
 struct GrowingMotion {
   double growth = 0.0;  ///< Re(s) / |s|
   double square = 0.0;  ///< |s|^2, scaled

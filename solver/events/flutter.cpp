@@ -202,8 +202,9 @@ StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, co
   return out;
 }
 
-/// The event at a root, with the motion of the pair nearest to a mean of eigenvalues; of damped vibrations
-/// nearest to that of the growing one.
+/// Flutter at a root. Its motion is that of the pair of eigenvalues whose mean is nearest to `mean`; with
+/// damping, nearest to |s|^2 of the vibration exp(s t) that grows most.
+/// @return empty: no natural motions were found there, and the step counts as too long
 std::optional<CriticalEvent> FlutterSearch::event_at(const LocatedRoot& root, double mean) {
   CriticalEvent event;
   event.type = CriticalType::flutter;
@@ -218,7 +219,8 @@ std::optional<CriticalEvent> FlutterSearch::event_at(const LocatedRoot& root, do
   event.bracket_loads[1] = root.after.lambda;
   const Sample at = sample(event.point);
   const Squares& squares = at.motions.squares;
-  if (squares.size() < 2) return std::nullopt;  // the search for natural motions has failed there
+  too_long_ = squares.size() < 2;
+  if (too_long_) return std::nullopt;
   const Pair pair = nearest(squares, is_damped(model_.damping) ? at.growing.square : mean);
   event.null = at.motions.motions.col(static_cast<Eigen::Index>(pair.first));
   return event;

@@ -111,7 +111,7 @@ class Basis {
     image_.middleCols(first, count) = image;
     expanded_ += count;
     add(image);
-    // images lie in the span of the basis: later vectors are orthogonal to this one's
+    // these images lie in the span of the vectors so far: rows of later vectors stay zero
     H_.block(0, first, columns_, count) = along_basis(image);
   }
   /// Eigenvalues of T on the expanded vectors, largest first, as those of the lowest mu.
@@ -146,7 +146,7 @@ class Basis {
 /// Makes columns orthonormal in M, and removes those that depend on the ones before but for rounding.
 /// @param weighted M times the columns
 /// @param removed squared norms of the parts that were taken from the columns before
-/// @return the least part of a column that was left, over the column; of columns that are kept
+/// @return least norm that was left of a column, over its norm before, among the columns that are kept
 double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& removed) {
   Index kept = 0;
   double least = 1.0;
@@ -278,7 +278,7 @@ void search_at(ShiftedInverse& inverse, double shift, const MotionSearch& search
   take(basis, pairs, search.count, shift, out);
 }
 
-/// Factorises at a shift below all eigenvalues; doubles it while some are lower.
+/// Factorises at a shift below all eigenvalues; takes four times the shift while some are lower.
 double factorise_below(ShiftedInverse& inverse, double shift) {
   for (int i = 0; i < SearchLimits::shifts; ++i) {
     if (inverse.factorise(shift) == 0 || !inverse.is_symmetric()) break;

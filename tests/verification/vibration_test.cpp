@@ -108,7 +108,8 @@ TEST(Vibration, OfAColumnFallsLinearlyWithItsLoad) {
           << factors[i] << " " << n;
 }
 
-/// Arches with and without a base, unloaded and at states with large displacements.
+/// Four frequencies of arches: with and without a Winkler base, unloaded and at states of large
+/// displacements.
 ///
 /// Source: tests/verification/data/arch_frequencies.py (Chebyshev collocation of the geometrically exact
 /// arch), radius and stiffness 1.

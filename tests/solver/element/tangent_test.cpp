@@ -211,7 +211,7 @@ TEST_P(Tangent, OfVaryingPressureIsInvertedByTheElimination) {
   }
 }
 
-/// `everything` with forces that turn with their places, and forces that stay on their lines.
+/// Model of everything(), with two forces that turn with their places and two that stay on their lines.
 Model with_following_forces(bool shearable) {
   Model model = everything(shearable);
   const auto add = [&](const Location& at, bool fixed_line, Pattern pattern) {
