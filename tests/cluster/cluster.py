@@ -1,5 +1,6 @@
 """Hosts that share one PostgreSQL, each a process of its own: started, harmed and asked, for tests and measurements."""
 
+import collections
 import hashlib
 import http.client
 import json
@@ -252,7 +253,10 @@ def sweep(points, elements=4, analysis="critical"):
 
 
 class Load:
-    """Clients that hand jobs in, one after the other, until they are stopped; what was acknowledged is kept."""
+    """Clients that hand jobs in until they are stopped; what was acknowledged is kept. Each has at most OPEN jobs that have not
+    ended, so that the queue stays as short on a slow machine as on a fast one."""
+
+    OPEN = 16
 
     def __init__(self, hosts, clients=4, elements=24):
         self.hosts = hosts
@@ -267,19 +271,38 @@ class Load:
     def _run(self, number):
         client = Client(self.hosts, list(OWNERS)[number % 2])
         made = 0
+        unended = collections.deque()
         while not self.stopping:
             made += 1
-            key = f'"{os.getpid()}-{id(self)}-{number}-{made}"'
-            # every fourth takes longer, so that whoever is harmed has something
-            body = json.dumps(column(1 + number + made * 1e-4, 1200 if made % 4 == 0 else self.elements))
-            status = 0
-            while status == 0 and not self.stopping:  # the same again, with its key, until somebody answers
-                status, _, headers = client.ask("POST", "/v1/jobs", body, {"Idempotency-Key": key, "Prefer": "respond-async"},
-                                                tries=len(self.hosts))
-            if status in (200, 201):
-                with self.lock:
-                    self.acknowledged.append((time.time(), client.owner, headers["Location"]))
+            path = self._hand_in(client, number, made)
+            if path:
+                unended.append(path)
+            while len(unended) >= self.OPEN and not self.stopping:
+                if self._has_ended(client, unended[0]):
+                    unended.popleft()
+                else:
+                    time.sleep(0.1)
             time.sleep(0.1)
+
+    def _hand_in(self, client, number, made):
+        """The path of the new job; nothing where it is refused or the load is stopped."""
+        key = f'"{os.getpid()}-{id(self)}-{number}-{made}"'
+        # every fourth takes longer, so that whoever is harmed has something
+        body = json.dumps(column(1 + number + made * 1e-4, 1200 if made % 4 == 0 else self.elements))
+        status = 0
+        while status == 0 and not self.stopping:  # the same again, with its key, until somebody answers
+            status, _, headers = client.ask("POST", "/v1/jobs", body, {"Idempotency-Key": key, "Prefer": "respond-async"},
+                                            tries=len(self.hosts))
+        if status not in (200, 201):
+            return None
+        with self.lock:
+            self.acknowledged.append((time.time(), client.owner, headers["Location"]))
+        return headers["Location"]
+
+    def _has_ended(self, client, path):
+        """Whether the job has ended, or is gone with a database that was lost."""
+        status, body, _ = client.ask("GET", path, tries=len(self.hosts))
+        return status == 404 or (status == 200 and json.loads(body)["status"] not in ("accepted", "running"))
 
     def stop(self):
         self.stopping = True
