@@ -32,6 +32,10 @@ const Structure& CriticalLoads::structure_of(int number) const {
   return number == 0 ? structure_ : levels_[number - 1]->structure();
 }
 
+const PathNorm& CriticalLoads::norm_of(int number) const {
+  return number == 0 ? follower_.norm() : levels_[number - 1]->norm();
+}
+
 /// The n-th finer mesh, n >= 1, built on first use; null when it does not exist.
 FineMesh* CriticalLoads::level(int number) {
   while (static_cast<int>(levels_.size()) < number) {
@@ -155,7 +159,8 @@ bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text, cons
     report(target, answer);
     if (complete) {
       const auto add = [&] {
-        complete(structure_of(answer.level), answer.found.event, result_.critical_points[target.index]);
+        complete(structure_of(answer.level), norm_of(answer.level), answer.found.event,
+                 result_.critical_points[target.index]);
       };
       if (!unless_cancelled(add)) return false;
     }

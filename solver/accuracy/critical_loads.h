@@ -15,9 +15,11 @@
 
 namespace snapthrough {
 
-/// Adds requested properties other than the load to a critical point. @param event the point on `structure`
-using Complete =
-    std::function<void(const Structure& structure, const CriticalEvent& event, CriticalPoint& point)>;
+/// Adds requested properties other than the load to a critical point.
+/// @param norm of paths on `structure`
+/// @param event the point on `structure`
+using Complete = std::function<void(const Structure& structure, const PathNorm& norm,
+                                    const CriticalEvent& event, CriticalPoint& point)>;
 
 /// @brief Locates the critical points of a path on finer and finer meshes until their loads agree, which
 /// confirms them.
@@ -76,6 +78,7 @@ class CriticalLoads final : public PathObserver {
 
   [[nodiscard]] FineMesh* level(int number);
   [[nodiscard]] const Structure& structure_of(int number) const;
+  [[nodiscard]] const PathNorm& norm_of(int number) const;
   [[nodiscard]] Answer answer_for(const Target& target);
   [[nodiscard]] std::optional<double> error_to_earlier(const Target& target) const;
   void report(const Target& target, const Answer& answer);

@@ -39,6 +39,7 @@ class FineMesh {
 
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
+  [[nodiscard]] const PathNorm& norm() const { return follower_.norm(); }
   [[nodiscard]] const PathStatistics& statistics() const { return follower_.statistics(); }
 
   /// @brief Locates the critical point that corresponds to one of a coarser mesh: same type, same inertia on

@@ -330,10 +330,11 @@ namespace {
 
 /// Function that adds requested sensitivities and Koiter coefficients to a critical point, and shows it to
 /// the visitor; may be empty.
-Complete completer(const Model& model, const Analysis& analysis, const PathNorm& norm, const Hooks& hooks,
+Complete completer(const Model& model, const Analysis& analysis, const Hooks& hooks,
                    const CriticalVisitor& visit, Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter && !visit) return {};
-  return [&](const Structure& structure, const CriticalEvent& event, CriticalPoint& point) {
+  return [&](const Structure& structure, const PathNorm& norm, const CriticalEvent& event,
+             CriticalPoint& point) {
     const LocatedPoint at{event, norm.metric().load_weight,
                           PolishLimits::reach * norm.search_scale(event.point), norm.least_load()};
     int& factorisations = result.diagnostics.factorizations;
@@ -399,7 +400,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }
-  const Complete complete = completer(model, analysis, solver.norm(), hooks, visit, result);
+  const Complete complete = completer(model, analysis, hooks, visit, result);
   confirmed = loads.confirm(hooks.stop, meshes, complete) && confirmed;
   const double at = outcome.on_critical ? result.critical_points[primary - 1].load_factor
                                         : outcome.last.lambda / structure.scales.load;
