@@ -4,8 +4,12 @@ namespace snapthrough {
 
 namespace {
 
-constexpr double kQuarter = 1.57079632679489655800e+00;      // pi/2 to 53 bits
-constexpr double kQuarterRest = 6.12323399573676603587e-17;  // pi/2 - kQuarter
+// pi/2 = kHigh + kMiddle + kRest. The first two have 33 bits each, so that their products with whole numbers
+// below 2^20 are exact, with and without fused multiply-add (W. J. Cody and W. Waite, Software Manual for the
+// Elementary Functions, 1980).
+constexpr double kHigh = 0x1.921fb544p+0;
+constexpr double kMiddle = 0x1.0b4611a6p-34;
+constexpr double kRest = 0x1.3198a2e037073p-69;
 
 /// sin r, |r| <= pi/4.
 Lanes sine_near_zero(const Lanes& r) {
@@ -38,8 +42,8 @@ Lanes cosine_near_zero(const Lanes& r) {
 
 void find_sines(Angles& of) {
   for (std::size_t i = 0; i < of.angle.size(); ++i) {
-    const Lanes turns = (of.angle[i] / kQuarter).rint();
-    const Lanes r = (of.angle[i] - turns * kQuarter) - turns * kQuarterRest;
+    const Lanes turns = (of.angle[i] / kHigh).rint();
+    const Lanes r = ((of.angle[i] - turns * kHigh) - turns * kMiddle) - turns * kRest;
     const Lanes s = sine_near_zero(r);
     const Lanes c = cosine_near_zero(r);
     // cosine and sine of whole quarter turns: m in -2..2
