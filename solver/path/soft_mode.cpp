@@ -68,7 +68,7 @@ MatrixXd first_block(const VectorXd& weights, const MatrixXd& start, Index count
   const Index columns = std::min<Index>((weights.array() > 0.0).count(), count + 1);
   const Index known = std::min(start.cols(), columns - 1);
   MatrixXd x(weights.size(), columns);
-  x.leftCols(known) = start.leftCols(known);
+  if (known > 0) x.leftCols(known) = start.leftCols(known);  // an empty start has no rows
   for (Index i = known; i < columns; ++i)
     x.col(i) = pseudo_random(weights.size(), static_cast<unsigned>(i + 1));
   return x;
