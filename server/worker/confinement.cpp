@@ -18,11 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SNAPTHROUGH_OWN_RUNTIME 1  // sanitizers reserve terabytes and use other system calls
-#else
-#define SNAPTHROUGH_OWN_RUNTIME 0
-#endif
+#include "server/worker/sanitizer.h"
 
 namespace snapthrough::server {
 namespace {
@@ -77,7 +73,7 @@ bool confine_process(int parent) {
 
 void confine_calls() {
   ::prctl(PR_SET_DUMPABLE, 0);  // files of /proc/self then belong to root
-#if !SNAPTHROUGH_OWN_RUNTIME && defined(__x86_64__)
+#if !SNAPTHROUGH_SANITIZED && defined(__x86_64__)
   static constexpr std::array kAllowed{SYS_read,
                                        SYS_write,
                                        SYS_pread64,
@@ -154,7 +150,7 @@ void MemoryBound::set(std::int64_t bytes) {
   }
   const std::int64_t page = ::sysconf(_SC_PAGESIZE);
   resident_before_ = pages[kResident] * page;
-#if SNAPTHROUGH_OWN_RUNTIME
+#if SNAPTHROUGH_SANITIZED
   static_cast<void>(bytes);
 #else
   limit(RLIMIT_DATA, static_cast<rlim_t>(pages[kData] * page + bytes));

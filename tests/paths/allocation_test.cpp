@@ -4,17 +4,12 @@
 #include <cstddef>
 #include <thread>
 
+#include "server/worker/sanitizer.h"
 #include "solver/path/path_follower.h"
 #include "solver/problem/structural_problem.h"
 #include "tests/paths/reference_problems.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SNAPTHROUGH_COUNTS_MALLOC 0
-#else
-#define SNAPTHROUGH_COUNTS_MALLOC 1
-#endif
-
-#if SNAPTHROUGH_COUNTS_MALLOC
+#if !SNAPTHROUGH_SANITIZED  // a sanitizer replaces malloc, too
 
 namespace {
 std::atomic<long> allocations{0};

@@ -3,13 +3,11 @@
 /// What differs in the build of a sanitizer: all takes longer, and the memory of runners has no bound,
 /// because the sanitizer's own takes more than any (server/worker/confinement.cpp).
 
+#include "server/worker/sanitizer.h"
+
 namespace snapthrough::server::test {
 
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
+inline constexpr bool kSanitized = SNAPTHROUGH_SANITIZED == 1;
 
 /// How much longer things may take.
 inline constexpr double kSlowdown = kSanitized ? 20.0 : 1.0;
