@@ -21,14 +21,15 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 json parameter(const std::string& name, const std::string& pointer, json values) {
-  return {{"name", name}, {"targets", {{{"pointer", pointer}}}}, {"values", std::move(values)}};
+  const json targets = json::array({json::object({{"pointer", pointer}})});
+  return {{"name", name}, {"targets", targets}, {"values", std::move(values)}};
 }
 
 json sound_sweep() {
   json document = json::parse(testing::sound_document());
-  document["parameters"] = {parameter("k", "/model/foundations/0/stiffness", {3, 5})};
+  document["parameters"] = json::array({parameter("k", "/model/foundations/0/stiffness", {3, 5})});
   document["design"] = "grid";
-  document["outputs"] = {"/summary/critical_load_factor"};
+  document["outputs"] = json::array({"/summary/critical_load_factor"});
   return document;
 }
 
@@ -38,7 +39,7 @@ std::vector<Finding> findings(const json& document) { return read_sweep(document
 std::vector<Finding> findings_of_output(const std::string& output, const std::string& type) {
   json document = sound_sweep();
   document["analysis"] = {{"type", type}};
-  document["outputs"] = {output};
+  document["outputs"] = json::array({output});
   return findings(document);
 }
 
@@ -93,9 +94,9 @@ TEST(SweepOutputs, NamesInsideAreThoseOfTheModel) {
 TEST(SweepOutputs, NamesThatAreSweptAreNotJudged) {
   json document = sound_sweep();
   document["analysis"] = {{"type", "path"}};
-  const json monitor = {{{"id", "other"}, {"at", {{"node", "b"}}}, {"component", "x"}}};
-  document["parameters"].push_back(parameter("m", "/model/monitors", {monitor}));
-  document["outputs"] = {"/critical_points/0/monitors/other"};
+  const json monitor = json::array({{{"id", "other"}, {"at", {{"node", "b"}}}, {"component", "x"}}});
+  document["parameters"].push_back(parameter("m", "/model/monitors", json::array({monitor})));
+  document["outputs"] = json::array({"/critical_points/0/monitors/other"});
   EXPECT_THAT(findings(document), IsEmpty());
 }
 
@@ -127,7 +128,7 @@ TEST(SweepOutputs, AnAnalysisThatIsSweptIsNotJudged) {
 
 TEST(SweepOutputs, ATargetMayHaveAPower) {
   json document = sound_sweep();
-  document["parameters"] = {parameter("t", "/model/sections/0/EA", {0.5, 2})};
+  document["parameters"] = json::array({parameter("t", "/model/sections/0/EA", {0.5, 2})});
   document["parameters"][0]["targets"] = {{{"pointer", "/model/sections/0/EA"}, {"scale", 1e6}},
                                           {{"pointer", "/model/sections/0/EI"}, {"scale", 12}, {"power", 3}}};
   const SweepOutcome outcome = read_sweep(document.dump());

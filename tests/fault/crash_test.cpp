@@ -274,7 +274,7 @@ class Crash : public KilledServiceTest {
       }
     }
     for (const std::string& path : told_.callbacks) {
-      EXPECT_EQ(ends[path], json::parse(get(port_, path).body)["status"]) << path;
+      EXPECT_EQ(ends[path], json::parse(get(port_, path).body)["status"].get<std::string>()) << path;
     }
     record_figure("ends_told", ends.size());
     record_figure("deliveries", deliveries);

@@ -69,7 +69,7 @@ void expect_points(const std::vector<CriticalPoint>& all, const json& expected) 
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     SCOPED_TRACE("critical point " + std::to_string(i));
-    EXPECT_EQ(api::name_of(api::kCriticalTypes, found[i].type), points[i].at("type"));
+    EXPECT_EQ(api::name_of(api::kCriticalTypes, found[i].type), points[i].at("type").get<std::string>());
     EXPECT_EQ(found[i].branch, points[i].value("branch", 0));
     if (!points[i].contains("load_factor")) continue;
     const double load = points[i].at("load_factor");
