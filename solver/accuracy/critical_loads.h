@@ -15,9 +15,11 @@
 
 namespace snapthrough {
 
-/// Adds requested properties other than the load to a critical point.
-/// @param norm of paths on `structure`
-/// @param event the point on `structure`
+/// Function that adds what was asked for beside the load to a critical point: sensitivities, Koiter's
+/// coefficients.
+/// @param structure on the mesh that gave the load of the point
+/// @param norm of paths on that mesh
+/// @param event the point as it was located on that mesh
 using Complete = std::function<void(const Structure& structure, const PathNorm& norm,
                                     const CriticalEvent& event, CriticalPoint& point)>;
 

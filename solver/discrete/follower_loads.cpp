@@ -43,15 +43,16 @@ Vec2 turned(const Vec2& force, double angle) {
   return {c * force[0] - s * force[1], s * force[0] + c * force[1]};
 }
 
-/// Force and moment on the place of a force, beyond those of the dead force F, where the place has moved by
-/// `at`.
+/// Force and moment (x, y, rotation) that a force which follows its place, or stays on its line, exerts on
+/// the place beyond the dead force F.
+/// @param at displacement and rotation of the place
 Vec3 added(const FollowerForce& force, const Vec2& F, const Vec3& at) {
   if (force.fixed_line) return {0.0, 0.0, at[1] * F[0] - at[0] * F[1]};
   const Vec2 now = turned(F, at[2]);
   return {now[0] - F[0], now[1] - F[1], 0.0};
 }
 
-/// added() = left (right^T change) for a small change of the motion.
+/// Change of added() by a small change of `at`: left (right^T change).
 struct Derivative {
   Vec3 left, right;
 };

@@ -202,9 +202,10 @@ StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, co
   return out;
 }
 
-/// Flutter at a root. Its motion is that of the pair of eigenvalues whose mean is nearest to `mean`; with
-/// damping, nearest to |s|^2 of the vibration exp(s t) that grows most.
-/// @return empty: no natural motions were found there, and the step counts as too long
+/// Critical point of type flutter at a root. Its motion belongs to the pair of eigenvalues omega^2 whose mean
+/// is nearest to `mean`; with damping, to the pair nearest to |s|^2, where exp(s t) is the vibration that
+/// grows most.
+/// @return empty where fewer than two natural motions are found at the root; the step then counts as too long
 std::optional<CriticalEvent> FlutterSearch::event_at(const LocatedRoot& root, double mean) {
   CriticalEvent event;
   event.type = CriticalType::flutter;

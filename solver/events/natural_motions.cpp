@@ -278,7 +278,9 @@ void search_at(ShiftedInverse& inverse, double shift, const MotionSearch& search
   take(basis, pairs, search.count, shift, out);
 }
 
-/// Factorises at a shift below all eigenvalues; takes four times the shift while some are lower.
+/// Factorises at a negative shift, multiplied by four until all eigenvalues of a symmetric problem lie above
+/// it.
+/// @return the shift of the factors
 double factorise_below(ShiftedInverse& inverse, double shift) {
   for (int i = 0; i < SearchLimits::shifts; ++i) {
     if (inverse.factorise(shift) == 0 || !inverse.is_symmetric()) break;

@@ -18,6 +18,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 POSTGRESQL = max(pathlib.Path("/usr/lib/postgresql").glob("*/bin"), key=lambda path: int(path.parent.name))
+UNENDED = ("accepted", "running", "unknown")  # what Client.state() may say of what has not ended
 OWNERS = {"ann": "key-of-ann-0123456789", "bob": "key-of-bob-0123456789"}
 
 
@@ -233,6 +234,11 @@ class Client:
             time.sleep(0.05)
         return 0, b"", {}
 
+    def state(self, path):
+        """The status of a job or a sweep: "gone" where it is not there, "unknown" where no front answers."""
+        status, body, _ = self.ask("GET", path, tries=4)
+        return json.loads(body)["status"] if status == 200 else "gone" if status == 404 else "unknown"
+
 
 def column(stiffness, elements=4, analysis="critical"):
     """A request that takes some milliseconds; more with more elements."""
@@ -278,7 +284,7 @@ class Load:
             if path:
                 unended.append(path)
             while len(unended) >= self.OPEN and not self.stopping:
-                if self._has_ended(client, unended[0]):
+                if client.state(unended[0]) not in UNENDED:  # a job may be gone with a database that was lost
                     unended.popleft()
                 else:
                     time.sleep(0.1)
@@ -298,11 +304,6 @@ class Load:
         with self.lock:
             self.acknowledged.append((time.time(), client.owner, headers["Location"]))
         return headers["Location"]
-
-    def _has_ended(self, client, path):
-        """Whether the job has ended, or is gone with a database that was lost."""
-        status, body, _ = client.ask("GET", path, tries=len(self.hosts))
-        return status == 404 or (status == 200 and json.loads(body)["status"] not in ("accepted", "running"))
 
     def stop(self):
         self.stopping = True

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-from cluster import Client, Cluster, Load, Network, OWNERS, sweep, wait_for
+from cluster import Client, Cluster, Load, Network, OWNERS, UNENDED, sweep, wait_for
 
 POINTS = 600
 
@@ -114,11 +114,7 @@ class Trial:
 
     def wrong_sweep(self):
         client = self.clients["ann"]
-
-        def ended():
-            status, body, _ = client.ask("GET", self.sweep, tries=4)
-            return status == 200 and json.loads(body)["status"] not in ("accepted", "running")
-        if wait_for(ended, 120, 0.2) is None:
+        if wait_for(lambda: client.state(self.sweep) not in (*UNENDED, "gone"), 120, 0.2) is None:
             return ["the sweep does not end"]
         _, body, _ = client.ask("GET", self.sweep, tries=4)
         counts = json.loads(body)["counts"]

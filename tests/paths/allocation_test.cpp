@@ -9,7 +9,7 @@
 #include "solver/problem/structural_problem.h"
 #include "tests/paths/reference_problems.h"
 
-#if !SNAPTHROUGH_SANITIZED  // a sanitizer replaces malloc, too
+#if !SNAPTHROUGH_SANITIZED  // sanitizers replace malloc themselves
 
 namespace {
 std::atomic<long> allocations{0};
