@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/verification/cases.h"
@@ -138,6 +139,21 @@ TEST(Flutter, ForcesOnAFixedLineHaveTheirMoment) {
     model.loads = {dead};
     const auto same = moved_by(solve(model, analysis));
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(same[c], line[c], 1e-8) << place;
+  }
+}
+
+/// A half ring, clamped at one end, under a pressure on its outside or inside that follows it.
+///
+/// Source: tests/verification/data/half_ring_flutter.py (Chebyshev collocation of the geometrically exact
+/// arch), radius and stiffness 1, EA = 1e5; 6e-8 between two numbers of places.
+TEST(Flutter, OfHalfARingUnderPressure) {
+  for (const auto& [side, load] :
+       {std::pair{Side::left, 0.9808309956}, std::pair{Side::right, 1.370039452}}) {
+    Model model = straight(2.0, 1.0, 1e5, "xyr", "");
+    model.members[0].curve = ArcCurve{-180.0};
+    model.sections[0].mass = 1.0;
+    model.loads = {PressureLoad{"m", 1.0, side}};
+    EXPECT_NEAR(load_of(model, CriticalType::flutter, 1e-7) / load, 1.0, 1e-7 + 6e-8);
   }
 }
 
