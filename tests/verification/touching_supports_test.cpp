@@ -111,7 +111,8 @@ std::vector<double> loads_of(const std::vector<SideSpring>& springs, unsigned se
   const auto pole = [](double P) { return std::floor(std::sqrt(P) / kPi); };
   constexpr double kScan = 1e-3;
   std::vector<double> out;
-  for (double P = kEuler + kScan; P < 16.0 * kEuler; P += kScan) {
+  // G has a pole at the Euler load
+  for (double P = kEuler + 2.0 * kScan; P < 16.0 * kEuler; P += kScan) {
     double lo = P - kScan;
     double hi = P;
     if (pole(lo) != pole(hi) || is_positive(lo) == is_positive(hi)) continue;
