@@ -34,7 +34,7 @@ struct SearchLimits {
   static constexpr int tries = 3;             ///< starts from other vectors when an eigenvalue was missed
   static constexpr double conjugate = 1e-12;  ///< difference of the real parts of a pair, over its magnitude
   static constexpr double rounding = 1e-12;   ///< rest of a motion that is rounding, over the largest theta
-  static constexpr double gap = 1e-9;         ///< distance of neighbours that one count tells apart
+  static constexpr double gap = 1e-9;         ///< distance of neighbours that a count tells apart, at least
 };
 
 /// The operator T = (J + sigma M)^-1 M, with inner product x^T M y.
@@ -289,13 +289,18 @@ double factorise_below(ShiftedInverse& inverse, double shift) {
   return shift;
 }
 
-/// Whether an inertia count finds as many eigenvalues as the search, just above the last of them.
+/// Whether an inertia count finds no other eigenvalue below the last one. The count is taken just below the
+/// last of the found eigenvalues that differ, because one of several equal eigenvalues may be the last that
+/// is asked for.
 /// @param shift of the search, by whose size eigenvalues are told apart
 bool is_complete(ShiftedInverse& inverse, double shift, const NaturalMotions& found) {
-  const std::size_t n = found.squares.size();
   const auto at = [&](std::size_t i) { return found.squares[i].real(); };
-  const double above = at(n - 1) + SearchLimits::gap * (std::abs(at(n - 1)) + std::abs(shift));
-  return inverse.factorise(above) == static_cast<int>(n);
+  std::size_t below = found.squares.size() - 1;
+  // 1 / (mu - shift) has the rounding of the largest one
+  const double rounding = SearchLimits::rounding * (at(below) - shift) / (at(0) - shift);
+  const double apart = std::max(SearchLimits::gap, rounding) * (std::abs(at(below)) + std::abs(shift));
+  while (below > 0 && at(below) - at(below - 1) <= 2.0 * apart) --below;
+  return inverse.factorise(at(below) - apart) == static_cast<int>(below);
 }
 
 }  // namespace

@@ -140,10 +140,8 @@ TEST(Vibration, OfArchesUnderLoadIsThatOfCollocation) {
   }
 }
 
-/// A ring, free or on a Winkler base K: radial amplitude w and tangential amplitude w / n of the waves n, so
-/// that omega^2 = n^2 / (n^2 + 1) (EI (n^2 - 1)^2 / R^4 + K) / m; the rotation is without strain.
-/// EA R^2 / EI = 1e9 leaves 1e-9 of extension.
-TEST(Vibration, OfARingIsHoppes) {
+/// Four quarters of a circle with EA R^2 / EI = 1e9.
+Model free_ring() {
   Model model;
   const char* const ids[] = {"e", "n", "w", "s"};
   for (int i = 0; i < 4; ++i)
@@ -153,8 +151,17 @@ TEST(Vibration, OfARingIsHoppes) {
   for (int i = 0; i < 4; ++i)
     model.members.push_back(
         {"m" + std::to_string(i), ids[i], ids[(i + 1) % 4], "s", ArcCurve{90.0}, false, false});
-  Spring none{"none", at_node("e"), std::array{1.0, 0.0}};  // a model needs a support; this one has no force
+  // a model needs a support; this one has no force
+  Spring none{"none", at_node("e"), std::array{1.0, 0.0}};
   model.springs = {none};
+  return model;
+}
+
+/// A ring, free or on a Winkler base K: radial amplitude w and tangential amplitude w / n of the waves n, so
+/// that omega^2 = n^2 / (n^2 + 1) (EI (n^2 - 1)^2 / R^4 + K) / m; the rotation is without strain.
+/// EA R^2 / EI = 1e9 leaves 1e-9 of extension.
+TEST(Vibration, OfARingIsHoppes) {
+  Model model = free_ring();
   for (const double base : {0.0, 10.0}) {
     for (const Member& member : model.members) {
       if (base == 0.0) break;
@@ -171,6 +178,29 @@ TEST(Vibration, OfARingIsHoppes) {
         EXPECT_NEAR(squares[static_cast<std::size_t>(2 * n - 1 + of_pair)], exact, 1e-9 + 2e-8 * exact)
             << base << " " << n;
     }
+  }
+}
+
+/// A number of frequencies may end within a pair of equal ones.
+TEST(Vibration, OfARingMayEndWithinAPair) {
+  const std::vector<double> all =
+      solved(free_ring(), vibration(13, {0.0}, 1e-6)).vibrations->at(0).frequencies.squares;
+  for (int count = 4; count <= 12; ++count) {
+    const Result result = solved(free_ring(), vibration(count, {0.0}, 1e-6));
+    const std::vector<double>& squares = result.vibrations->at(0).frequencies.squares;
+    ASSERT_EQ(squares.size(), static_cast<std::size_t>(count));
+    for (std::size_t i = 3; i < squares.size(); ++i)
+      EXPECT_NEAR(squares[i] / all[i], 1.0, 1e-6) << count << " " << i;
+  }
+}
+
+/// The rounding of stiff beams, EA L^2 / EI from 1e4 to 1e13, does not refute what was found.
+TEST(Vibration, OfAStiffFreeBeamIsConfirmed) {
+  for (int power = 4; power <= 13; ++power) {
+    const Result result = solved(heavy_beam("", "", std::pow(10.0, power)), vibration(13, {0.0}, 1e-8));
+    ASSERT_EQ(result.vibrations->size(), 1U) << power;
+    const double exact = squared(4.730040744862704);
+    EXPECT_NEAR(result.vibrations->at(0).frequencies.squares.at(3) / exact, 1.0, 1e-8) << power;
   }
 }
 
