@@ -2,9 +2,13 @@
 /// @file
 /// Displacement of the ground under springs and elements.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
+
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 
@@ -39,14 +43,24 @@ struct GroundMotion {
   [[nodiscard]] GroundPlace at(double xi) const {
     return {unknown, {start[0] + xi * change[0], start[1] + xi * change[1]}};
   }
-  /// @brief Subtracts the ground's motion from a displacement of the element.
+  /// @brief Subtracts the ground's motion from a displacement of the element. What is left within the
+  /// rounding of displacements is zero: an element that moves with the ground touches it without pressure.
   /// @param u displacement (x, y) at its start; dx, dy: derivatives of the displacement by xi
   void subtract_from(const double* y, std::span<double> u, std::span<double> dx, std::span<double> dy) const {
     if (unknown < 0) return;
+    const double largest =
+        std::max({std::abs(u[0]), std::abs(u[1]), std::abs(y[unknown]), std::abs(y[unknown + 1])});
+    const auto clear = [rounding = Rounding::displacement * largest](double& part) {
+      if (std::abs(part) <= rounding) part = 0.0;
+    };
     for (std::size_t c = 0; c < 2; ++c) {
       const double moved = y[unknown + static_cast<int>(c)];
       u[c] -= start[c] * moved;
-      for (double& derivative : c == 0 ? dx : dy) derivative -= change[c] * moved;
+      clear(u[c]);
+      for (double& derivative : c == 0 ? dx : dy) {
+        derivative -= change[c] * moved;
+        clear(derivative);
+      }
     }
   }
 };
