@@ -30,6 +30,7 @@ std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, doubl
   if (structure_.one_sided && has_any(problem_.marks_at(y))) return std::nullopt;
   NaturalMotions found = natural_motions(structure_, problem_, masses_, y, lambda, search_, columns_);
   search_.begin_with(found);
+  if (!search_.counted && !found.converged) return std::nullopt;
   return found;
 }
 

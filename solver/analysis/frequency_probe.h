@@ -25,7 +25,8 @@ class FrequencyProbe {
   FrequencyProbe(const Structure& structure, const Model& model, const Analysis& analysis);
 
   /// @param y, lambda scaled unknowns and load factor of an equilibrium
-  /// @return empty: one-sided supports touch without pressure, so that small vibrations are not linear
+  /// @return empty: one-sided supports touch without pressure, so that small vibrations are not linear; or,
+  /// of an analysis of another type than vibration, the search did not converge
   [[nodiscard]] std::optional<NaturalMotions> at(const Eigen::VectorXd& y, double lambda);
   /// Eigenvalues in the model's units.
   [[nodiscard]] Frequencies in_units(const NaturalMotions& motions) const {

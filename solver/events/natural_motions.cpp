@@ -27,14 +27,16 @@ struct SearchLimits {
   static constexpr double massless = 1e-13;   ///< eigenvalue of the inverse, over the largest: no mass moves
   static constexpr double far = 30.0;         ///< shift over the lowest eigenvalues at which it is moved
   static constexpr double below = 0.3;        ///< moved shift over the lowest eigenvalues
-  static constexpr double zero =
-      1e-6;  ///< eigenvalues over the shift that count as zero: no shift is near them
+  /// Eigenvalues over the shift, or over that of a member alone, that count as zero.
+  static constexpr double zero = 1e-6;
   static constexpr double first_shift = 0.1;  ///< first shift over the scale
   static constexpr int shifts = 60;           ///< shifts that are tried
   static constexpr int tries = 3;             ///< starts from other vectors when an eigenvalue was missed
   static constexpr double conjugate = 1e-12;  ///< difference of the real parts of a pair, over its magnitude
   static constexpr double rounding = 1e-12;   ///< rest of a motion that is rounding, over the largest theta
-  static constexpr double gap = 1e-9;         ///< distance of neighbours that a count tells apart, at least
+  /// Distance of eigenvalues that a count need not tell apart: the rounding of J moves them by 5e-9 where
+  /// EA l^2 / EI is 1e14.
+  static constexpr double apart = 1e-7;
 };
 
 /// The operator T = (J + sigma M)^-1 M, with inner product x^T M y.
@@ -213,7 +215,10 @@ std::vector<Ritz> Basis::ritz() const {
   std::erase_if(
       out, [largest](const Ritz& pair) { return std::abs(pair.theta) <= SearchLimits::massless * largest; });
   const auto square = [](const Ritz& pair) { return 1.0 / pair.theta; };
+  const bool symmetric = inverse_.is_symmetric();
   std::sort(out.begin(), out.end(), [&](const Ritz& a, const Ritz& b) {
+    // no eigenvalue lies below the shift: theta < 0 is rounding
+    if (symmetric) return a.theta.real() > b.theta.real();
     const auto x = square(a);
     const auto y = square(b);
     // conjugates differ by rounding in their real parts
@@ -263,13 +268,13 @@ void search_at(ShiftedInverse& inverse, double shift, const MotionSearch& search
   const Index most = 3 * search.count + SearchLimits::spare;
   const double rest = inverse.is_symmetric() ? std::sqrt(search.tolerance) : search.tolerance;
   Basis basis(inverse, start_of(search, inverse.size(), seed), search.tolerance, most, columns);
+  // one image of each vector does not tell that it is a motion
+  const Index least = 2 * basis.size();
   std::vector<Ritz> pairs;
   out.converged = false;
   while (basis.fresh() > 0) {
     basis.expand();
-    // one image of each vector does not tell that it is a motion
-    if (basis.expanded() < 2 * SearchLimits::block && basis.fresh() > 0) continue;
-    if (basis.fresh() > SearchLimits::block && basis.size() < most) continue;
+    if (basis.expanded() < least && basis.fresh() > 0 && basis.size() < most) continue;
     pairs = basis.ritz();
     out.converged = basis.fresh() == 0 || has_converged(pairs, search.count, rest);
     if (out.converged || basis.size() >= most) break;
@@ -298,7 +303,7 @@ bool is_complete(ShiftedInverse& inverse, double shift, const NaturalMotions& fo
   std::size_t below = found.squares.size() - 1;
   // 1 / (mu - shift) has the rounding of the largest one
   const double rounding = SearchLimits::rounding * (at(below) - shift) / (at(0) - shift);
-  const double apart = std::max(SearchLimits::gap, rounding) * (std::abs(at(below)) + std::abs(shift));
+  const double apart = std::max(SearchLimits::apart, rounding) * (std::abs(at(below)) + std::abs(shift));
   while (below > 0 && at(below) - at(below - 1) <= 2.0 * apart) --below;
   return inverse.factorise(at(below) - apart) == static_cast<int>(below);
 }
@@ -320,7 +325,8 @@ NaturalMotions natural_motions(const Structure& structure, StructuralProblem& pr
                                const MotionSearch& search, KrylovColumns& columns) {
   NaturalMotions out;
   ShiftedInverse inverse(structure, problem, masses, y, lambda);
-  const double scale = search.scale > 0.0 ? search.scale : masses.scale;
+  // rigid motions tell no scale
+  const double scale = search.scale > SearchLimits::zero * masses.scale ? search.scale : masses.scale;
   double shift = factorise_below(inverse, -SearchLimits::first_shift * scale);
   for (unsigned seed = 0; seed < SearchLimits::tries; ++seed) {
     search_at(inverse, shift, search, seed, columns, out);

@@ -194,6 +194,43 @@ TEST(Vibration, OfARingMayEndWithinAPair) {
   }
 }
 
+/// More frequencies than four at the points of a path are those that an inertia count confirms.
+TEST(Vibration, AtThePointsOfAPathIsConfirmed) {
+  Model model = arch(88.0, 0.2, 1.0, true);
+  model.sections[0].mass = 1.8;
+  model.masses = {{at_member("arch", 0.4), 190.0, 0.0}};
+  for (const int count : {5, 6, 9, 14}) {
+    Analysis along = analysis_of(AnalysisType::path, fixed_mesh(8, 3));
+    along.stop.load_factor = {{0.0, 8.0}};
+    along.output.frequencies = count;
+    const Result path = solved(model, along);
+    const Branch& branch = path.branches.at(0);
+    Analysis at = vibration(count, branch.load_factor, 1e-6);
+    at.discretization = fixed_mesh(8, 3);
+    const Result confirmed = solved(model, at);
+    ASSERT_GE(confirmed.vibrations->size(), 3U);
+    for (std::size_t i = 0; i < confirmed.vibrations->size(); ++i) {
+      const std::vector<double>& exact = confirmed.vibrations->at(i).frequencies.squares;
+      const std::vector<double>& found = branch.frequencies.at(i).value().squares;
+      ASSERT_EQ(found.size(), exact.size());
+      for (std::size_t n = 0; n < exact.size(); ++n)
+        EXPECT_NEAR(found[n], exact[n], 1e-7 * std::abs(exact[n])) << count << " " << i << " " << n;
+    }
+  }
+}
+
+/// Motions without strain, the only ones asked for, tell the next load factor nothing of the size of
+/// frequencies.
+TEST(Vibration, OfRigidMotionsAtSeveralLoadsIsConfirmed) {
+  Model model = free_ring();
+  for (const Member& member : model.members)
+    model.loads.emplace_back(PressureLoad{member.id, 1.0, Side::right});
+  const Result result = solved(model, vibration(3, {0.0, 0.2, 1.0}, 1e-3));
+  ASSERT_EQ(result.vibrations->size(), 3U);
+  for (const Vibration& at : *result.vibrations)
+    for (const double square : at.frequencies.squares) EXPECT_NEAR(square, 0.0, 1e-9);
+}
+
 /// The rounding of stiff beams, EA L^2 / EI from 1e4 to 1e13, does not refute what was found.
 TEST(Vibration, OfAStiffFreeBeamIsConfirmed) {
   for (int power = 4; power <= 13; ++power) {
