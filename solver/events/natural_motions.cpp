@@ -23,6 +23,7 @@ struct SearchLimits {
   static constexpr Index block = kLanes;      ///< columns of a block: as many as solve() takes at once
   static constexpr Index spare = 36;          ///< vectors beyond three per wanted eigenvalue, at most
   static constexpr double dependent = 1e-10;  ///< part of a column outside the basis that is rounding
+  static constexpr double again = 0.5;        ///< that part of what is left of a column, a second time
   static constexpr double orthogonal = 1e-4;  ///< error of products of vectors, over that of eigenvalues
   static constexpr double massless = 1e-13;   ///< eigenvalue of the inverse, over the largest: no mass moves
   static constexpr double far = 30.0;         ///< shift over the lowest eigenvalues at which it is moved
@@ -30,8 +31,9 @@ struct SearchLimits {
   /// Eigenvalues over the shift, or over that of a member alone, that count as zero.
   static constexpr double zero = 1e-6;
   static constexpr double first_shift = 0.1;  ///< first shift over the scale
-  static constexpr int shifts = 60;           ///< shifts that are tried
-  static constexpr int tries = 3;             ///< starts from other vectors when an eigenvalue was missed
+  static constexpr std::size_t lowest = 3;  ///< number of eigenvalues that tell the scale of the next search
+  static constexpr int shifts = 60;         ///< shifts that are tried
+  static constexpr int tries = 3;           ///< starts from other vectors when an eigenvalue was missed
   static constexpr double conjugate = 1e-12;  ///< difference of the real parts of a pair, over its magnitude
   static constexpr double rounding = 1e-12;   ///< rest of a motion that is rounding, over the largest theta
   /// Distance of eigenvalues that a count need not tell apart: the rounding of J moves them by 5e-9 where
@@ -148,8 +150,9 @@ class Basis {
 /// Makes columns orthonormal in M, and removes those that depend on the ones before but for rounding.
 /// @param weighted M times the columns
 /// @param removed squared norms of the parts that were taken from the columns before
+/// @param dependent part of a column's norm that is rounding
 /// @return least norm that was left of a column, over its norm before, among the columns that are kept
-double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& removed) {
+double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& removed, double dependent) {
   Index kept = 0;
   double least = 1.0;
   for (Index j = 0; j < columns.cols(); ++j) {
@@ -160,7 +163,7 @@ double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& rem
     v.noalias() -= columns.leftCols(kept) * along;
     mv.noalias() -= weighted.leftCols(kept) * along;
     const double rest = v.dot(mv);
-    if (!(rest > SearchLimits::dependent * SearchLimits::dependent * size)) continue;
+    if (!(rest > dependent * dependent * size)) continue;
     least = std::min(least, std::sqrt(rest / size));
     columns.col(kept) = v / std::sqrt(rest);
     weighted.col(kept) = mv / std::sqrt(rest);
@@ -175,13 +178,14 @@ double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& rem
 void Basis::add(MatrixXd columns) {
   MatrixXd weighted;
   double left = 0.0;
-  // a second pass removes what the rounding of the first has left
+  // a second pass removes what the rounding of the first has left, and columns that were nothing else
   for (int pass = 0; pass < 2 && left < least_; ++pass) {
     const MatrixXd along = along_basis(columns);
     for (Index j = 0; j < columns.cols(); ++j)
       columns.col(j).noalias() -= V_.leftCols(columns_) * along.col(j);
     weighted = inverse_.weighted(columns);
-    left = orthonormalise(columns, weighted, along.colwise().squaredNorm());
+    left = orthonormalise(columns, weighted, along.colwise().squaredNorm(),
+                          pass == 0 ? SearchLimits::dependent : SearchLimits::again);
   }
   V_.middleCols(columns_, columns.cols()) = columns;
   MV_.middleCols(columns_, columns.cols()) = weighted;
@@ -317,7 +321,8 @@ void MotionSearch::begin_with(const NaturalMotions& found) {
   }
   near = found.motions;
   scale = 0.0;
-  for (const auto& square : found.squares) scale = std::max(scale, std::abs(square));
+  for (std::size_t i = 0; i < std::min(found.squares.size(), SearchLimits::lowest); ++i)
+    scale = std::max(scale, std::abs(found.squares[i]));
 }
 
 NaturalMotions natural_motions(const Structure& structure, StructuralProblem& problem,
@@ -331,10 +336,11 @@ NaturalMotions natural_motions(const Structure& structure, StructuralProblem& pr
   for (unsigned seed = 0; seed < SearchLimits::tries; ++seed) {
     search_at(inverse, shift, search, seed, columns, out);
     if (out.squares.empty()) break;
-    // a shift far below the eigenvalues makes them alike: they lose digits, and the iteration is slow
-    double size = 0.0;
-    for (const auto& mu : out.squares) size = std::max(size, std::abs(mu));
-    if (-shift > SearchLimits::far * size && size > SearchLimits::zero * -shift) {
+    // a shift far below an eigenvalue that is not zero takes digits from it, and the iteration is slow
+    double size = -shift;
+    for (const auto& mu : out.squares)
+      if (std::abs(mu) > SearchLimits::zero * -shift) size = std::min(size, std::abs(mu));
+    if (-shift > SearchLimits::far * size) {
       shift = factorise_below(inverse, -SearchLimits::below * size);
       search_at(inverse, shift, search, seed, columns, out);
     }

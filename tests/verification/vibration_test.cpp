@@ -3,6 +3,7 @@
 /// Sources: characteristic equations of the slender beam (Timoshenko, Vibration Problems in Engineering, ch.
 /// 5); Hoppe's ring, omega^2 = EI n^2 (n^2 - 1)^2 / (m R^4 (n^2 + 1)); omega^2 of a pinned column falls
 /// linearly with its load.
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -215,6 +216,43 @@ TEST(Vibration, AtThePointsOfAPathIsConfirmed) {
       ASSERT_EQ(found.size(), exact.size());
       for (std::size_t n = 0; n < exact.size(); ++n)
         EXPECT_NEAR(found[n], exact[n], 1e-7 * std::abs(exact[n])) << count << " " << i << " " << n;
+    }
+  }
+}
+
+/// A cantilever without mass that carries two: only five motions have any, and more that are asked for are
+/// rounding. The flexibility of its three motions across is that of a beam under a force and a moment at a,
+/// and a force at its end.
+TEST(Vibration, OfFewMassesHasNoOtherMotions) {
+  constexpr double a = 0.4;
+  constexpr double EA = 1e6;
+  Eigen::Matrix3d flexibility;
+  flexibility << a * a * a / 3.0, a * a / 2.0, a * a * (3.0 - a) / 6.0, a * a / 2.0, a, a - a * a / 2.0,
+      a * a * (3.0 - a) / 6.0, a - a * a / 2.0, 1.0 / 3.0;
+  const Eigen::Vector3d roots = Eigen::Vector3d(0.5, 0.01, 1.0).cwiseSqrt();
+  const Eigen::Vector3d across =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(roots.asDiagonal() * flexibility * roots.asDiagonal())
+          .eigenvalues();
+  for (const bool follows : {false, true}) {
+    for (int count = 1; count <= 8; ++count) {
+      Model model = straight(1.0, 1.0, EA, "xyr", "");
+      model.masses = {{at_node("b"), 1.0, 0.0}, {at_member("m", a), 0.5, 0.01}};
+      PointLoad load = force_at(at_node("b"), -1.0, 0.01);
+      load.follows = follows;
+      model.loads = {load};
+      Analysis along = analysis_of(AnalysisType::path, accurate(1e-3));
+      along.stop.load_factor = {{0.0, 2.0}};
+      along.output.frequencies = count;
+      const Result result = solved(model, along);
+      for (const auto& row : result.branches.at(0).frequencies) {
+        ASSERT_TRUE(row) << count;
+        ASSERT_EQ(row->squares.size(), static_cast<std::size_t>(std::min(count, 5)));
+        EXPECT_GT(row->squares[0], 0.0) << count;
+      }
+      for (std::size_t i = 0; i < static_cast<std::size_t>(std::min(count, 3)); ++i)
+        EXPECT_NEAR(result.branches[0].frequencies[0]->squares[i] * across[2 - static_cast<Eigen::Index>(i)],
+                    1.0, 1e-5)
+            << count << " " << i;
     }
   }
 }
