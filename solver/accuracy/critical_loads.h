@@ -19,7 +19,7 @@ namespace snapthrough {
 /// coefficients.
 /// @param structure on the mesh that gave the load of the point
 /// @param norm of paths on that mesh
-/// @param event the point as it was located on that mesh
+/// @param event the critical point as that mesh has it
 using Complete = std::function<void(const Structure& structure, const PathNorm& norm,
                                     const CriticalEvent& event, CriticalPoint& point)>;
 

@@ -23,7 +23,7 @@ struct SearchLimits {
   static constexpr Index block = kLanes;      ///< columns of a block: as many as solve() takes at once
   static constexpr Index spare = 36;          ///< vectors beyond three per wanted eigenvalue, at most
   static constexpr double dependent = 1e-10;  ///< part of a column outside the basis that is rounding
-  static constexpr double again = 0.5;        ///< that part of what is left of a column, a second time
+  static constexpr double again = 0.5;        ///< part of a column that a second pass leaves; less: rounding
   static constexpr double orthogonal = 1e-4;  ///< error of products of vectors, over that of eigenvalues
   static constexpr double massless = 1e-13;   ///< eigenvalue of the inverse, over the largest: no mass moves
   static constexpr double far = 30.0;         ///< shift over the lowest eigenvalues at which it is moved
@@ -272,7 +272,7 @@ void search_at(ShiftedInverse& inverse, double shift, const MotionSearch& search
   const Index most = 3 * search.count + SearchLimits::spare;
   const double rest = inverse.is_symmetric() ? std::sqrt(search.tolerance) : search.tolerance;
   Basis basis(inverse, start_of(search, inverse.size(), seed), search.tolerance, most, columns);
-  // one image of each vector does not tell that it is a motion
+  // the first image of a vector does not tell whether the vector is a motion
   const Index least = 2 * basis.size();
   std::vector<Ritz> pairs;
   out.converged = false;
@@ -305,7 +305,7 @@ double factorise_below(ShiftedInverse& inverse, double shift) {
 bool is_complete(ShiftedInverse& inverse, double shift, const NaturalMotions& found) {
   const auto at = [&](std::size_t i) { return found.squares[i].real(); };
   std::size_t below = found.squares.size() - 1;
-  // 1 / (mu - shift) has the rounding of the largest one
+  // the search finds 1 / (mu - shift), whose rounding is that of the largest of these numbers
   const double rounding = SearchLimits::rounding * (at(below) - shift) / (at(0) - shift);
   const double apart = std::max(SearchLimits::apart, rounding) * (std::abs(at(below)) + std::abs(shift));
   while (below > 0 && at(below) - at(below - 1) <= 2.0 * apart) --below;
@@ -330,13 +330,14 @@ NaturalMotions natural_motions(const Structure& structure, StructuralProblem& pr
                                const MotionSearch& search, KrylovColumns& columns) {
   NaturalMotions out;
   ShiftedInverse inverse(structure, problem, masses, y, lambda);
-  // rigid motions tell no scale
+  // squares of rigid motions are rounding and tell no scale
   const double scale = search.scale > SearchLimits::zero * masses.scale ? search.scale : masses.scale;
   double shift = factorise_below(inverse, -SearchLimits::first_shift * scale);
   for (unsigned seed = 0; seed < SearchLimits::tries; ++seed) {
     search_at(inverse, shift, search, seed, columns, out);
     if (out.squares.empty()) break;
-    // a shift far below an eigenvalue that is not zero takes digits from it, and the iteration is slow
+    // an eigenvalue that is far smaller than the shift, and not zero, loses digits: the shift is moved near
+    // it
     double size = -shift;
     for (const auto& mu : out.squares)
       if (std::abs(mu) > SearchLimits::zero * -shift) size = std::min(size, std::abs(mu));

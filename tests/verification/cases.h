@@ -143,6 +143,25 @@ inline const MemberState& member_of(const State& state, const std::string& id) {
   return *found;
 }
 
+/// The first load at which a structure is not stable, by a grid of loads up to `most` and by halving.
+/// @param is_stable tells of a load whether the structure is stable there
+/// @param tolerance relative width of the last interval
+/// @return upper end of that interval; 0 where the structure is stable at every load of the grid
+template <class IsStable>
+double first_unstable_load(const IsStable& is_stable, double most, int loads, double tolerance) {
+  double lo = 0.0;
+  double hi = 0.0;
+  for (int i = 1; i <= loads && hi == 0.0; ++i) {
+    const double load = most * i / loads;
+    (is_stable(load) ? lo : hi) = load;
+  }
+  while (hi - lo > tolerance * hi) {
+    const double middle = 0.5 * (lo + hi);
+    (is_stable(middle) ? lo : hi) = middle;
+  }
+  return hi;
+}
+
 inline void expect_relative(double value, double expected, double tolerance, const std::string& what) {
   EXPECT_NEAR(value, expected, tolerance * std::abs(expected)) << what;
 }

@@ -1,8 +1,8 @@
 /// Flutter and divergence of elastic columns, against finite elements that share no code with the solver.
 ///
-/// The straight state of a slender column has the axial forces of its loads, so that the linear equations of
-/// small vibrations are exact: cubic elements for w with  K + P G  and M, and eigenvalues by Eigen's dense
-/// solver at each load of a fine grid.
+/// In the straight state of a slender column the axial force follows from the loads alone, so that the linear
+/// equations of small vibrations are exact. Cubic elements for the deflection w give K + P G and M; Eigen's
+/// dense solver gives the eigenvalues at each load P of a fine grid.
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ using Eigen::Vector4d;
 
 constexpr int kElements = 16;
 
-/// Compression at a place, of which a share follows the section.
+/// Compressive force at a node of the elements; a share of the force turns with the section.
 struct Push {
   int node = 0;
   double force = 0.0;
@@ -176,16 +176,8 @@ TEST(FlutterOfColumns, AtRandomIsThatOfFiniteElements) {
   for (int model = 0; model < kModels; ++model) {
     const Column column = random_column(random);
     const Beam beam(column);
-    double lo = 0.0;
-    double hi = 0.0;
-    for (int i = 1; i <= kLoads && hi == 0.0; ++i) {
-      const double load = kMost * i / kLoads;
-      (beam.at(load) == Beam::State::stable ? lo : hi) = load;
-    }
-    while (hi - lo > 1e-7 * hi) {
-      const double middle = 0.5 * (lo + hi);
-      (beam.at(middle) == Beam::State::stable ? lo : hi) = middle;
-    }
+    const double hi = first_unstable_load([&](double load) { return beam.at(load) == Beam::State::stable; },
+                                          kMost, kLoads, 1e-7);
     const Beam::State state = hi > 0.0 ? beam.at(hi) : Beam::State::stable;
     ++found[static_cast<std::size_t>(state)];
     Analysis analysis = analysis_of(AnalysisType::critical, accurate(1e-4));

@@ -263,17 +263,9 @@ TEST(Flutter, OfRandomChainsIsThatOfDenseEigenvalues) {
   for (int model = 0; model < 100; ++model) {
     const Chain chain = random_chain(random);
     const Links links(chain);
-    double lo = 0.0;
-    double hi = 0.0;
-    for (int i = 1; i <= kLoads && hi == 0.0; ++i) {
-      const double load = kMost * i / kLoads;
-      (links.at(load) == Links::State::stable ? lo : hi) = load;
-    }
+    const double hi = first_unstable_load([&](double load) { return links.at(load) == Links::State::stable; },
+                                          kMost, kLoads, 1e-9);
     ASSERT_GT(hi, 0.0) << model;
-    while (hi - lo > 1e-9 * hi) {
-      const double middle = 0.5 * (lo + hi);
-      (links.at(middle) == Links::State::stable ? lo : hi) = middle;
-    }
     const bool is_flutter = links.at(hi) == Links::State::flutters;
     Analysis analysis = critical(1e-3);
     analysis.discretization = fixed_mesh(1, 3);

@@ -182,7 +182,7 @@ TEST(Vibration, OfARingIsHoppes) {
   }
 }
 
-/// A number of frequencies may end within a pair of equal ones.
+/// The number of frequencies that is asked for may take one of a pair of equal ones and leave the other.
 TEST(Vibration, OfARingMayEndWithinAPair) {
   const std::vector<double> all =
       solved(free_ring(), vibration(13, {0.0}, 1e-6)).vibrations->at(0).frequencies.squares;
@@ -195,7 +195,8 @@ TEST(Vibration, OfARingMayEndWithinAPair) {
   }
 }
 
-/// More frequencies than four at the points of a path are those that an inertia count confirms.
+/// Frequencies at the points of a path, which no inertia count confirms, are those of a vibration analysis,
+/// which has such a count.
 TEST(Vibration, AtThePointsOfAPathIsConfirmed) {
   Model model = arch(88.0, 0.2, 1.0, true);
   model.sections[0].mass = 1.8;
@@ -220,9 +221,9 @@ TEST(Vibration, AtThePointsOfAPathIsConfirmed) {
   }
 }
 
-/// A cantilever without mass that carries two: only five motions have any, and more that are asked for are
-/// rounding. The flexibility of its three motions across is that of a beam under a force and a moment at a,
-/// and a force at its end.
+/// A cantilever without mass of its own that carries two point masses has five natural motions, and no more
+/// where more are asked for. The flexibility of the three across is that of a beam under a force and a moment
+/// at a, and a force at its end.
 TEST(Vibration, OfFewMassesHasNoOtherMotions) {
   constexpr double a = 0.4;
   constexpr double EA = 1e6;
@@ -257,8 +258,8 @@ TEST(Vibration, OfFewMassesHasNoOtherMotions) {
   }
 }
 
-/// Motions without strain, the only ones asked for, tell the next load factor nothing of the size of
-/// frequencies.
+/// The search at a load factor takes its scale from the squares found at the one before. Those of rigid
+/// motions are zero but for rounding and give none.
 TEST(Vibration, OfRigidMotionsAtSeveralLoadsIsConfirmed) {
   Model model = free_ring();
   for (const Member& member : model.members)
@@ -269,7 +270,8 @@ TEST(Vibration, OfRigidMotionsAtSeveralLoadsIsConfirmed) {
     for (const double square : at.frequencies.squares) EXPECT_NEAR(square, 0.0, 1e-9);
 }
 
-/// The rounding of stiff beams, EA L^2 / EI from 1e4 to 1e13, does not refute what was found.
+/// The inertia count that confirms the frequencies of a vibration analysis agrees with them for stiff beams
+/// too, EA L^2 / EI from 1e4 to 1e13.
 TEST(Vibration, OfAStiffFreeBeamIsConfirmed) {
   for (int power = 4; power <= 13; ++power) {
     const Result result = solved(heavy_beam("", "", std::pow(10.0, power)), vibration(13, {0.0}, 1e-8));
