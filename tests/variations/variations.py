@@ -9,6 +9,7 @@ import random
 PLACE = 0.43  # off every middle and every other place that models name
 EXACT = {0: (1, 0), 90: (0, 1), 180: (-1, 0), 270: (0, -1)}
 OPPOSITE = {"left": "right", "right": "left"}
+PLACED = ("loads", "springs", "monitors", "masses")  # lists of what has a place on a member
 
 
 def flipped(item):
@@ -17,7 +18,9 @@ def flipped(item):
 
 
 def acts_normal(foundation):
-    return not isinstance(foundation.get("direction", "normal"), list)
+    """Whether the foundation has a side of the member."""
+    return (not isinstance(foundation.get("direction", "normal"), list) and "outline" not in foundation
+            and foundation.get("component", "normal") == "normal")
 
 
 def listed(model, key):
@@ -25,9 +28,41 @@ def listed(model, key):
 
 
 def change(model, key, edit):
-    """Replaces each item of the list `key`."""
-    if key in model:
-        model[key] = [edit(item) for item in model[key]]
+    """Replaces each item of the list `key`; loads are those of the load cases, too."""
+    for holder in holders(model, key):
+        holder[key] = [edit(item) for item in holder[key]]
+
+
+def holders(model, key):
+    """The objects that have the list `key`."""
+    owners = [model, *listed(model, "load_cases")] if key == "loads" else [model]
+    return [owner for owner in owners if key in owner]
+
+
+def on_values(value, edit):
+    """A value, or each of the values of a field that varies along a member."""
+    if isinstance(value, dict) and "along" in value:
+        return {**value, "along": [[place, edit(one)] for place, one in value["along"]]}
+    return edit(value)
+
+
+def negated(value):
+    return on_values(value, lambda one: -one)
+
+
+def value_at(points, place, power=1.0):
+    """Piecewise linear in value^(1/power), constant beyond the ends; values may be vectors."""
+    if isinstance(points[0][1], list):
+        return [value_at([[x, value[axis]] for x, value in points], place) for axis in range(len(points[0][1]))]
+    if place <= points[0][0]:
+        return points[0][1]
+    for (x, a), (y, b) in zip(points, points[1:]):
+        if place <= y:
+            share = (place - x) / (y - x)
+            low, high = (math.copysign(abs(value) ** (1 / power), value) if power != 1 else value for value in (a, b))
+            mixed = low + share * (high - low)
+            return mixed ** power if power != 1 else mixed
+    return points[-1][1]
 
 
 # Turning and mirroring.
@@ -35,24 +70,30 @@ def change(model, key, edit):
 def moved_curve(curve, apply, determinant):
     moved = dict(curve)
     for field in ("sweep_degrees", "rise"):
-        if field in moved:
+        if field in moved and "direction" not in moved:
             moved[field] *= determinant
+    if "direction" in moved:
+        moved["direction"] = apply(moved["direction"])
     if "points" in moved:
         moved["points"] = [apply(point) for point in moved["points"]]
     return moved
 
 
-def moved_load(load, apply, determinant):
+def moved_load(load, apply, determinant, degrees):
     moved = dict(load)
-    if "force" in moved:
-        if load.get("per", "length") != "length":
-            raise ValueError("a load per projected length can not be turned")
-        moved["force"] = apply(load["force"])
+    if load.get("per", "length") != "length" and degrees % 180:
+        raise ValueError("a load per projected length can not be turned")
+    if "force" in moved and load.get("axes", "global") == "member":
+        moved["force"] = on_values(load["force"], lambda force: [force[0], determinant * force[1]])
+    elif "force" in moved:
+        moved["force"] = on_values(load["force"], apply)
+    if "gravity" in moved:
+        moved["gravity"] = apply(load["gravity"])
     if load["type"] == "pressure" and determinant < 0:
         moved = flipped(moved)
-    for field in ("moment", "curvature"):
-        if field in moved:
-            moved[field] *= determinant
+    for field in ("moment", "curvature", "gradient"):
+        if field in moved and determinant < 0:
+            moved[field] = negated(moved[field])
     return moved
 
 
@@ -68,8 +109,47 @@ def moved_support(support, degrees, determinant):
     return moved
 
 
+def along_both(x, y, apply):
+    """The two components of a vector that may vary along a member, moved."""
+    lists = [value["along"] for value in (x, y) if isinstance(value, dict)]
+    if not lists:
+        return apply([x, y])
+    places = sorted({place for points in lists for place, _ in points})
+    pairs = [(place, apply([value_at(value["along"], place) if isinstance(value, dict) else value for value in (x, y)]))
+             for place in places]
+    return [{"along": [[place, pair[axis]] for place, pair in pairs]} for axis in (0, 1)]
+
+
+def moved_ground(ground, apply, determinant):
+    """Displacement of the ground at a spring or along a foundation."""
+    moved = dict(ground)
+    if "rotation" in moved:
+        moved["rotation"] *= determinant
+        return moved
+    moved["x"], moved["y"] = along_both(ground.get("x", 0.0), ground.get("y", 0.0), apply)
+    return moved
+
+
+def moved_outline(outline, apply, determinant):
+    moved = dict(outline)
+    for field in ("center", "through", "into"):
+        if field in moved:
+            moved[field] = apply(moved[field])
+    if "points" in moved:
+        moved["points"] = [apply(point) for point in moved["points"]]
+    if determinant < 0 and moved.get("medium") in OPPOSITE:
+        moved["medium"] = OPPOSITE[moved["medium"]]
+    return moved
+
+
 def moved_medium(item, apply, determinant):
     moved = dict(item)
+    if "displacement" in moved:
+        moved["displacement"] = moved_ground(moved["displacement"], apply, determinant)
+    if "outline" in moved:
+        return {**moved, "outline": moved_outline(moved["outline"], apply, determinant)}
+    if moved.get("component") == "tangent":
+        return moved
     if isinstance(moved.get("direction"), list):
         moved["direction"] = apply(moved["direction"])
     elif moved.get("direction") == "rotation" and determinant < 0:
@@ -113,7 +193,7 @@ def move(request, degrees, mirrored):
     change(model, "nodes", moved_node)
     change(model, "members", moved_member)
     change(model, "supports", lambda item: moved_support(item, degrees, determinant))
-    change(model, "loads", lambda item: moved_load(item, apply, determinant))
+    change(model, "loads", lambda item: moved_load(item, apply, determinant, degrees))
     change(model, "springs", lambda item: moved_medium(item, apply, determinant))
     change(model, "foundations", lambda item: moved_medium(item, apply, determinant))
     change(model, "imperfections", lambda item: moved_imperfection(item, determinant))
@@ -145,11 +225,22 @@ def mirror_and_turn(degrees):
 
 # Reversing members.
 
+def reversed_along(value):
+    """A value that may vary along a member, or an object of such values, seen from the other end."""
+    if isinstance(value, dict) and "along" in value:
+        return {**value, "along": [[1 - place, one] for place, one in reversed(value["along"])]}
+    if isinstance(value, dict):
+        return {field: reversed_along(one) for field, one in value.items()}
+    return value
+
+
 def reversed_range(item):
-    if "range" not in item:
-        return dict(item)
-    start, end = item["range"]
-    return {**item, "range": [1 - end, 1 - start]}
+    """What lies along a member, seen from the other end; an outline lies in the plane."""
+    turned = {field: value if field == "outline" else reversed_along(value) for field, value in item.items()}
+    if "range" in item:
+        start, end = item["range"]
+        turned["range"] = [1 - end, 1 - start]
+    return turned
 
 
 def reversed_member(member):
@@ -157,7 +248,7 @@ def reversed_member(member):
     curve = dict(member.get("curve", {"type": "line"}))
     if "sweep_degrees" in curve:
         curve["sweep_degrees"] *= -1
-    if "rise" in curve and curve.get("half_waves", 1) % 2 == 1:
+    if "rise" in curve and "direction" not in curve and curve.get("half_waves", 1) % 2 == 1:
         curve["rise"] *= -1
     if "points" in curve:
         curve["points"] = curve["points"][::-1]
@@ -173,8 +264,11 @@ def reversed_load(load):
     turned = reversed_range(load)
     if load["type"] == "pressure":
         turned = flipped(turned)
-    if "curvature" in turned:
-        turned["curvature"] *= -1
+    if load.get("axes", "global") == "member":
+        turned["force"] = on_values(turned["force"], lambda force: [-force[0], -force[1]])
+    for field in ("curvature", "gradient"):
+        if field in turned:
+            turned[field] = negated(turned[field])
     return turned
 
 
@@ -204,13 +298,27 @@ def reverse_members(request, names):
         turned = reversed_range(item)
         return flipped(turned) if acts_normal(item) else turned
 
+    reverse_sections(model, names)
     change(model, "members", lambda item: reversed_member(item) if item["id"] in names else item)
     change(model, "foundations", on_member(foundation))
     change(model, "loads", on_member(reversed_load))
     change(model, "imperfections", on_member(reversed_imperfection))
-    for key in ("loads", "springs", "monitors"):
+    for key in PLACED:
         change(model, key, placed)
     return request
+
+
+def reverse_sections(model, names):
+    """Gives the members `names` sections that vary from their other end."""
+    for section in list(model["sections"]):
+        turned = {**section, "id": section["id"] + " reversed"}
+        turned = {field: reversed_along(value) for field, value in turned.items()}
+        if {**turned, "id": section["id"]} == section:
+            continue
+        model["sections"].append(turned)
+        for member in model["members"]:
+            if member["id"] in names and member["section"] == section["id"]:
+                member["section"] = turned["id"]
 
 
 def member_names(request):
@@ -229,11 +337,13 @@ def reverse_first(request):
 
 def point_on(model, member, fraction):
     """Position at a fraction of the length of a line or an arc."""
-    places = {node["id"]: complex(node["x"], node["y"]) for node in model["nodes"]}
-    start, chord = places[member["start"]], places[member["end"]] - places[member["start"]]
+    start, chord = ends_of(model, member)
     curve = member.get("curve", {"type": "line"})
     if curve["type"] == "line":
         return start + fraction * chord
+    if curve["type"] == "parabola":
+        share = share_of_chord(chord, offset_of(curve, chord), fraction)
+        return start + share * chord + 4 * share * (1 - share) * offset_of(curve, chord)
     if curve["type"] != "arc":
         return None
     half = math.radians(curve["sweep_degrees"]) / 2
@@ -242,7 +352,45 @@ def point_on(model, member, fraction):
     return start + chord * turned * math.sin(part) / math.sin(half)
 
 
-def member_parts(member, node, fraction):
+def ends_of(model, member):
+    """Start and chord of a member, as complex numbers."""
+    places = {node["id"]: complex(node["x"], node["y"]) for node in model["nodes"]}
+    return places[member["start"]], places[member["end"]] - places[member["start"]]
+
+
+def offset_of(curve, chord):
+    """Offset of a parabola over the middle of its chord, as a complex number."""
+    direction = complex(*curve["direction"]) if "direction" in curve else 1j * chord
+    return curve["rise"] * direction / abs(direction)
+
+
+def share_of_chord(chord, offset, fraction):
+    """Where along its chord a parabola has a fraction of its length; the length by Gauss' rule of order 5 on 64 pieces."""
+    nodes, weights = (-(0.6 ** 0.5), 0.0, 0.6 ** 0.5), (5 / 18, 8 / 18, 5 / 18)
+
+    def speed(share):
+        return abs(chord + 4 * (1 - 2 * share) * offset)
+
+    def length(end):
+        return sum(end / 64 * weight * speed(end / 64 * (piece + 0.5 + node / 2))
+                   for piece in range(64) for node, weight in zip(nodes, weights))
+
+    low, high, whole = 0.0, 1.0, length(1.0)
+    for _ in range(52):
+        middle = (low + high) / 2
+        low, high = (middle, high) if length(middle) < fraction * whole else (low, middle)
+    return (low + high) / 2
+
+
+def parabola_parts(curve, chord, fraction):
+    """The two pieces of a parabola: in the direction of its axis each has the same second derivative."""
+    offset = offset_of(curve, chord)
+    share = share_of_chord(chord, offset, fraction)
+    direction = [offset.real / abs(offset), offset.imag / abs(offset)]
+    return [{"type": "parabola", "rise": abs(offset) * part ** 2, "direction": direction} for part in (share, 1 - share)]
+
+
+def member_parts(member, node, fraction, chord):
     """The two members; the first keeps the id."""
     first = {**member, "end": node}
     second = {**member, "id": member["id"] + " beyond", "start": node}
@@ -250,10 +398,29 @@ def member_parts(member, node, fraction):
     if curve["type"] == "arc":
         first["curve"] = {**curve, "sweep_degrees": curve["sweep_degrees"] * fraction}
         second["curve"] = {**curve, "sweep_degrees": curve["sweep_degrees"] * (1 - fraction)}
+    if curve["type"] == "parabola":
+        first["curve"], second["curve"] = parabola_parts(curve, chord, fraction)
     release = member.get("release", {})
     first["release"] = {"start": release.get("start", [])}
     second["release"] = {"end": release.get("end", [])}
     return [first, second]
+
+
+def along_part(value, low, high):
+    """A value that may vary along a member, or an object of such values, on the part from `low` to `high` of its length."""
+    if isinstance(value, dict) and "along" in value:
+        points, power = value["along"], value.get("power", 1.0)
+        inside = [[place, one] for place, one in points if low < place < high]
+        ends = [[place, value_at(points, place, power)] for place in (low, high)]
+        shares = [[(place - low) / (high - low), one] for place, one in [ends[0], *inside, ends[1]]]
+        return {**value, "along": shares}
+    if isinstance(value, dict):
+        return {field: along_part(one, low, high) for field, one in value.items()}
+    return value
+
+
+def on_part(item, low, high):
+    return {field: value if field == "outline" else along_part(value, low, high) for field, value in item.items()}
 
 
 def range_parts(item, member, fraction):
@@ -261,9 +428,9 @@ def range_parts(item, member, fraction):
     start, end = item.get("range", [0, 1])
     parts = []
     if start < fraction:
-        parts.append({**item, "range": [start / fraction, min(end, fraction) / fraction]})
+        parts.append({**on_part(item, 0, fraction), "range": [start / fraction, min(end, fraction) / fraction]})
     if end > fraction:
-        second = {**item, "member": member + " beyond",
+        second = {**on_part(item, fraction, 1), "member": member + " beyond",
                   "range": [(max(start, fraction) - fraction) / (1 - fraction), (end - fraction) / (1 - fraction)]}
         if "id" in item:
             second["id"] = item["id"] + " beyond"
@@ -281,31 +448,49 @@ def placed_on_part(item, name, node, fraction):
     if at.get("member") != name:
         return item
     place = at["fraction"]
-    if place == fraction:
+    if place == fraction and item.get("component") != "normal":
         return {**item, "at": {"node": node}}
-    if place < fraction:
+    if place <= fraction:
         return {**item, "at": {"member": name, "fraction": place / fraction}}
     return {**item, "at": {"member": name + " beyond", "fraction": (place - fraction) / (1 - fraction)}}
+
+
+def split_sections(model, parts, fraction):
+    """Sections of the two parts of a member, where they vary along it."""
+    section = next(item for item in model["sections"] if item["id"] == parts[0]["section"])
+    for part, low, high in zip(parts, (0, fraction), (fraction, 1)):
+        on_it = {**on_part(section, low, high), "id": f"{section['id']} of {part['id']}"}
+        if {**on_it, "id": section["id"]} != section:
+            model["sections"].append(on_it)
+            part["section"] = on_it["id"]
+
+
+def can_be_split(model, member):
+    """Imperfections, rods and the free ground of one-sided shear layers are those of whole members."""
+    name = member["id"]
+    layers = (item.get("shear_stiffness") and (item.get("reaction", "bilateral") != "bilateral" or "ground_end" in item)
+              for item in listed(model, "foundations") if item["member"] == name)
+    return ("reaction" not in member and not any(layers)
+            and not any(item.get("member") == name for item in listed(model, "imperfections")))
 
 
 def split_member(model, name, fraction):
     """Splits one member; returns the new node's id, or None where its curve can not be split."""
     member = next(item for item in model["members"] if item["id"] == name)
     point = point_on(model, member, fraction)
-    if point is None or any(item.get("member") == name for item in listed(model, "imperfections")):
+    if point is None or not can_be_split(model, member):
         return None
     node = f"{name} at {fraction:g}"
-    model["nodes"].append({"id": node, "x": point.real, "y": point.imag})
     place = model["members"].index(member)
-    model["members"][place:place + 1] = member_parts(member, node, fraction)
+    parts = member_parts(member, node, fraction, ends_of(model, member)[1])
+    split_sections(model, parts, fraction)
+    model["nodes"].append({"id": node, "x": point.real, "y": point.imag})
+    model["members"][place:place + 1] = parts
     for key in ("foundations", "loads"):
-        if key in model:
-            model[key] = [part for item in model[key] for part in (
+        for holder in holders(model, key):
+            holder[key] = [part for item in holder[key] for part in (
                 range_parts(item, name, fraction) if item.get("member") == name else [item])]
-    for load in listed(model, "loads"):
-        if "range" in load and load["type"] in ("pressure", "initial_strain"):
-            raise ValueError("pressure acts on whole members")
-    for key in ("loads", "springs", "monitors"):
+    for key in PLACED:
         change(model, key, lambda item: placed_on_part(item, name, node, fraction))
     return node
 
