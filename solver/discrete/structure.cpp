@@ -368,7 +368,7 @@ void Builder::add_elements() {
   add_unresolved();
 }
 
-/// Adds a message for each foundation whose stiffness was bounded.
+/// Adds a message for each foundation whose stiffness was bounded; that of a rigid one always is.
 void Builder::add_unresolved() {
   std::vector<double> least;
   least.reserve(out_.foundation_laws.size());
@@ -379,7 +379,7 @@ void Builder::add_unresolved() {
   }
   for (std::size_t i = 0; i < least.size(); ++i) {
     const double given = out_.foundation_laws[i].law.stiffness;
-    if (!std::isfinite(given) || !(least[i] < given)) continue;
+    if (!(least[i] < given)) continue;
     out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
                            rounded(least[i] / out_.scales.scaled_modulus(1.0)) +
                            ", which the elements do not resolve");
