@@ -50,6 +50,7 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] double residual_rounding(const Eigen::VectorXd& y, double lambda) const override;
 
   [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
+  [[nodiscard]] bool may_kink() const override { return structure_.one_sided || !structure_.curves.empty(); }
   [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
                                          const Eigen::VectorXd& rate) const override;
   [[nodiscard]] double missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const override;
