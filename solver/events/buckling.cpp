@@ -290,19 +290,25 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   find_loads(pencil, problem.size(), count, out);
   for (const double load : out.loads)
     out.compressions.push_back(compressions_of(structure, pencil.stress(load)));
+  if (!structure.curves.empty() && !out.loads.empty()) out.prestress = pencil.stress(out.loads.front());
   out.factorizations = pencil.factorizations();
   out.marks = marks;
   out.contact = std::move(pencil.contact());
   return out;
 }
 
-std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda, int& factorizations) {
+std::optional<VectorXd> small_displacement_state(StructuralProblem& problem, double lambda,
+                                                 int& factorizations) {
   const PathMetric metric{&problem.metric(), 0.0};
   Workspace work;
   problem.set_holds(held_softly(problem));
   const auto state = find_contact_state(problem, metric, lambda, work, factorizations, nullptr, true);
-  if (!state) return std::nullopt;
-  return problem.frozen_contact(state->y, true);
+  return state ? std::optional(state->y) : std::nullopt;
+}
+
+std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda, int& factorizations) {
+  const auto state = small_displacement_state(problem, lambda, factorizations);
+  return state ? std::optional(problem.frozen_contact(*state, true)) : std::nullopt;
 }
 
 }  // namespace snapthrough

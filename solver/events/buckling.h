@@ -21,6 +21,8 @@ struct LinearBuckling {
   std::vector<Eigen::VectorXd> modes;  ///< modes in the problem's unknowns, largest displacement one
   /// For each load the largest compression of each member in the linear prestress, scaled; negative: tension.
   std::vector<std::vector<double>> compressions;
+  /// Prestress under the first load, as unknowns; empty unless some law has a curve.
+  Eigen::VectorXd prestress;
   int negative_at_start = 0;  ///< negative eigenvalues under the constant actions alone
   SharedHolds holds;          ///< artificial springs on motions without stiffness
   /// A free motion is driven by the actions or resisted by their stresses alone, so that no linear reference
@@ -53,6 +55,14 @@ struct LinearBuckling {
 [[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
                                              int count, double reference, const Eigen::VectorXd& near = {},
                                              LoadSense sense = LoadSense::as_given);
+
+/// @brief Small-displacement equilibrium under a load factor, to five digits.
+/// @param problem its holds are overwritten
+/// @param lambda scaled load factor
+/// @param factorizations incremented by the number of factorisations
+/// @return empty when no such equilibrium was found
+[[nodiscard]] std::optional<Eigen::VectorXd> small_displacement_state(StructuralProblem& problem,
+                                                                      double lambda, int& factorizations);
 
 /// @brief Contact of one-sided supports (pressed or touching) at the small-displacement equilibrium under a
 /// load factor.

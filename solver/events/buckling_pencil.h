@@ -3,6 +3,7 @@
 /// Tangent stiffness of the linearised buckling analysis as a function of the load factor.
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "solver/events/buckling.h"
 #include "solver/problem/structural_problem.h"
@@ -18,8 +19,8 @@ class BucklingPencil {
       : structure_(structure), problem_(problem), sense_(sense == LoadSense::reversed ? -1.0 : 1.0) {}
 
   /// Computes the linear stresses of both kinds of actions, with the contact and the tangents of laws under
-  /// the reference load. Returns false when no equilibrium with small displacements was found under that
-  /// load.
+  /// the reference load. Laws with a curve: the stresses of the state under that load. Returns false when no
+  /// equilibrium with small displacements was found under that load.
   [[nodiscard]] bool set_prestress(double reference);
   [[nodiscard]] int count(double lambda);
   void solve(Eigen::VectorXd& x) { problem_.solve(x); }
@@ -48,7 +49,9 @@ class BucklingPencil {
   [[nodiscard]] Regime regime_at(double lambda);
   [[nodiscard]] Eigen::VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
   void drop_rounding(double least, Eigen::VectorXd& response) const;
-  [[nodiscard]] bool freeze_contact(double reference);
+  [[nodiscard]] std::optional<Eigen::VectorXd> state_at(double load);
+  [[nodiscard]] bool freeze_contact(double load);
+  [[nodiscard]] bool set_curved_prestress(double load);
 
   const Structure& structure_;
   StructuralProblem& problem_;
