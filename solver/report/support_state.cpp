@@ -11,6 +11,7 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/discrete/layer_state.h"
+#include "solver/discrete/stops.h"
 #include "solver/model/id_index.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/rounding.h"
@@ -43,8 +44,9 @@ SpringForce force_of(const Structure& structure, const Model& model, std::size_t
   SpringReading reading = reading_of(structure, model, index, y);
   out.row = std::move(reading.row);
   out.displacement = reading.displacement;
-  out.force = spring.law.reaction(out.displacement);
-  out.closed = spring.law.acts(out.displacement);
+  out.force = reading.force;
+  out.closed = spring.law.stiffness > 0.0 && (!spring.law.one_sided || reading.depth > 0.0);
+  if (spring.force_unknown >= 0) return out;  // the force is an unknown
   double size = spring.law.gap;
   for (const auto& [at, weight] : out.row.entries) size += std::abs(weight * y[at]);
   if (out.force != 0.0)
@@ -73,8 +75,11 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
                                in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
                                at.closed,
                                {}});
-    if (spring.at.node.empty()) continue;
-    for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
+    if (!spring.at.node.empty())
+      for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
+    else if (const SpringLaw& law = structure.spring_laws[i]; law.force_unknown >= 0)
+      on_nodes.segment<3>(3 * static_cast<Eigen::Index>(node_of_stop(structure, model, spring))) -=
+          at.force * Eigen::Vector3d(law.row[0], law.row[1], law.row[2]);
   }
   return on_nodes;
 }
