@@ -11,8 +11,9 @@
 namespace snapthrough {
 
 /// Type of a critical point. broken_bifurcation: missed by the path because of an imperfection. flutter: two
-/// natural frequencies meet under loads without a potential, and vibrations grow beyond.
-enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation, flutter };
+/// natural frequencies meet under loads without a potential, and vibrations grow beyond. capacity: supports
+/// whose laws have a capacity carry no more, see CapacityLimit.
+enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation, flutter, capacity };
 
 [[nodiscard]] constexpr bool is_limit(CriticalType type) {
   return type == CriticalType::limit_max || type == CriticalType::limit_min;
@@ -123,6 +124,14 @@ struct NeutralMotion {
   /// Load factor at which the motion meets resistance again; empty: free to the end of the path.
   std::optional<double> to;
   std::vector<NodeMotion> nodes;  ///< moving nodes; largest displacement 1, or largest rotation 1
+};
+
+/// Limit load of supports whose laws have a capacity: the motion that the loads drive there meets supports at
+/// their capacity only.
+struct CapacityLimit {
+  double load_factor = 0.0;           ///< no equilibrium is reported beyond this load factor
+  std::vector<std::string> supports;  ///< ids of the springs and foundations at their capacity
+  std::vector<NodeMotion> nodes;      ///< moving nodes; largest displacement 1, or largest rotation 1
 };
 
 /// Beginning or end of a contact zone of a foundation, or of contact of a one-sided spring; also division and
@@ -334,6 +343,7 @@ struct Result {
   Summary summary;
   std::vector<CriticalPoint> critical_points;
   std::vector<NeutralMotion> neutral_motion;
+  std::vector<CapacityLimit> capacity = {};  ///< at most one for each sense of the load factor
   std::vector<ContactEvent> contact_events;
   std::vector<Branch> branches;
   std::vector<State> states;

@@ -12,6 +12,7 @@
 #include "solver/accuracy/layers.h"
 #include "solver/accuracy/polish.h"
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/capacity_rule.h"
 #include "solver/analysis/monitor_watch.h"
 #include "solver/analysis/recorder.h"
 #include "solver/analysis/vibration_rule.h"
@@ -120,6 +121,8 @@ const char* name_of(CriticalType type) {
       return "broken bifurcation";
     case CriticalType::flutter:
       return "flutter";
+    case CriticalType::capacity:
+      return "capacity of supports";
   }
   return "";
 }
@@ -147,6 +150,7 @@ constexpr EndText kEnds[] = {
     {TraceEnd::displacement_bound, "displacement_bound",
      "displacements or strains grew beyond any bound of interest", false},
     {TraceEnd::load_bound, "load_bound", "the load grew beyond any bound of interest", false},
+    {TraceEnd::capacity, "capacity", "the supports are at their capacity", false},
     {TraceEnd::cancelled, "cancelled", "cancelled", true},
     {TraceEnd::step_underflow, "step_underflow", "no smaller step converged; the path stands", true},
     {TraceEnd::no_start, "no_start", "no equilibrium was found for the first small load", true}};
@@ -349,13 +353,36 @@ Complete completer(const Model& model, const Analysis& analysis, const Hooks& ho
   };
 }
 
+/// Rules of a primary path.
+/// @param problem, watch, loads, recorder kept by reference; must outlive the rules
+TraceRules primary_rules(const Model& model, const Analysis& analysis, const Structure& structure,
+                         const CapacityEnds* capacity, StructuralProblem& problem, CriticalLoads& loads,
+                         Recorder& recorder) {
+  TraceRules rules = rules_of(model, analysis, structure);
+  rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.output.at_load_factors);
+  if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
+  rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
+  return rules;
+}
+
+/// Reports the capacity of supports that ended a path.
+/// @param count critical points of the primary path in the result
+/// @return whether everything that the path met is confirmed; the limit needs no finer mesh
+bool confirm_capacity(const Model& model, const Analysis& analysis, const Structure& structure,
+                      const CapacityEnds& capacity, const TraceOutcome& outcome, std::size_t count,
+                      bool confirmed, Result& result) {
+  report_capacity_point(analysis, capacity, structure, model, outcome, count, result);
+  if (!outcome.on_critical) return confirmed;
+  return std::ranges::all_of(result.critical_points, &CriticalPoint::confirmed);
+}
+
 /// Follows the path on one mesh.
 /// @param earlier critical points of the path on a coarser mesh
 /// @param decays bending decay lengths at the path's end, for the next mesh
 /// @return whether finer meshes confirm the result, or nothing needs confirmation
 bool follow_on(const Model& model, const Analysis& analysis, const Structure& structure,
-               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, const CriticalVisitor& visit,
-               Result& result, std::vector<double>& decays) {
+               const CapacityEnds* capacity, const std::vector<CriticalPoint>& earlier, const Hooks& hooks,
+               const CriticalVisitor& visit, Result& result, std::vector<double>& decays) {
   StructuralProblem problem(structure);
   PathFollower follower(problem, options_of(analysis));
   PointSolver& solver = follower.solver();
@@ -367,19 +394,17 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                           [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
-    return follow_on(model, analysis, *touching, earlier, hooks, visit, result, decays);
+    return follow_on(model, analysis, *touching, capacity, earlier, hooks, visit, result, decays);
   }
   if (!start) return true;
   Recorder recorder(model, analysis, structure, solver, softest, hooks, result);
   CriticalLoads loads(model, analysis, structure, follower, earlier, result);
   MonitorWatch watch(structure, row_of_stop(structure, analysis), start.point->y);
   recorder.begin_branch();
-  TraceRules rules = rules_of(model, analysis, structure);
+  TraceRules rules = primary_rules(model, analysis, structure, capacity, problem, loads, recorder);
   bound_negative(analysis, start.point->negative, watch, rules);
-  if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   std::optional<FlutterSearch> flutter;
   rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
-  rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
   const TraceOutcome outcome =
@@ -405,6 +430,8 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   const double at = outcome.on_critical ? result.critical_points[primary - 1].load_factor
                                         : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);
+  if (outcome.end == TraceEnd::capacity)
+    confirmed = confirm_capacity(model, analysis, structure, *capacity, outcome, primary, confirmed, result);
   result.summary.message = loss_on_the_way(analysis, result) + result.summary.message + branches + meshes;
   warn_of_still_monitor(analysis, watch, result);
   warn_of_untested_flutter(model, structure, result);
@@ -467,8 +494,9 @@ bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) 
          (analysis.start || point.load_factor * path_direction(analysis) > 0.0);
 }
 
-void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-              Result& result, const CriticalVisitor& visit) {
+void run_path(const Model& model, const Analysis& analysis, const Structure& structure,
+              const CapacityEnds* capacity, const Hooks& hooks, Result& result,
+              const CriticalVisitor& visit) {
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
@@ -476,7 +504,8 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     Result reached;
     reached.diagnostics = result.diagnostics;
     std::vector<double> decays;
-    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, visit, reached, decays);
+    const bool confirmed =
+        follow_on(model, analysis, *mesh, capacity, earlier, hooks, visit, reached, decays);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     report_path_mesh(*mesh, paths, result);

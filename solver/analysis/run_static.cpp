@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/capacity_rule.h"
 #include "solver/analysis/frequency_probe.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/softest_point.h"
@@ -202,7 +203,8 @@ TraceRules static_rules(const Model& model, const Analysis& analysis, double bou
 
 /// Sets the failure of a static path that ended before its last load factor.
 void fail_at_end(const Model& model, const Analysis& analysis, const Structure& structure,
-                 StructuralProblem& problem, const TraceOutcome& outcome, Result& result) {
+                 const CapacityEnds* capacity, StructuralProblem& problem, const TraceOutcome& outcome,
+                 Result& result) {
   const std::string where = number(outcome.last.lambda / structure.scales.load);
   switch (outcome.end) {
     case TraceEnd::cancelled:
@@ -211,6 +213,10 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
     case TraceEnd::critical_point:
     case TraceEnd::limit_points:
       fail_at(model, analysis, structure, problem, outcome.critical.back(), result);
+      return;
+    case TraceEnd::capacity:
+      fail(result, "capacity",
+           report_capacity(*capacity, model, capacity_load(*capacity, structure, outcome), result));
       return;
     case TraceEnd::unstable_at_start:
       fail(result, "beyond_critical_point", "the structure is unstable before the load grows");
@@ -267,8 +273,9 @@ class StaticObserver final : public PathObserver {
 };
 
 /// Follows the path through all load factors of one sign, stores their states; false when it ends earlier.
-bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
-            const Hooks& hooks, StaticRows& states, Result& result) {
+bool follow(const Model& model, const Analysis& analysis, const Structure& structure,
+            const CapacityEnds* capacity, double direction, const Hooks& hooks, StaticRows& states,
+            Result& result) {
   double last = 0.0;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (states.lacks(i)) last = std::max(last, analysis.load_factors[i] * direction);
@@ -281,7 +288,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
                     [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
-    return follow(model, analysis, *touching, direction, hooks, states, result);
+    return follow(model, analysis, *touching, capacity, direction, hooks, states, result);
   }
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
@@ -289,6 +296,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
       states.set(i, start.point->y, start.point->negative);
   if (last == 0.0) return true;
   TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
+  rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.load_factors);
   std::optional<FlutterSearch> flutter;
   rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
   StaticObserver observer(model, analysis, structure, solver, softest, states, result);
@@ -296,13 +304,13 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   add_statistics(follower.statistics(), result);
   softest.report(structure, model, analysis, result);
   if (outcome.end == TraceEnd::load_factor) return true;
-  fail_at_end(model, analysis, structure, problem, outcome, result);
+  fail_at_end(model, analysis, structure, capacity, problem, outcome, result);
   return false;
 }
 
 /// Computes the states at all requested load factors.
-void compute(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-             StaticRows& states, Result& result) {
+void compute(const Model& model, const Analysis& analysis, const Structure& structure,
+             const CapacityEnds* capacity, const Hooks& hooks, StaticRows& states, Result& result) {
   if (analysis.geometry == Geometry::linear) {
     StructuralProblem problem(structure);
     NeutralMotionLog neutral(structure, model, result.neutral_motion);
@@ -320,8 +328,8 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
   } else {
     const bool falling = states.asks_for([](double factor) { return factor < 0.0; });
     const bool growing = states.asks_for([](double factor) { return factor >= 0.0; });
-    if (growing) static_cast<void>(follow(model, analysis, structure, 1.0, hooks, states, result));
-    if (falling) static_cast<void>(follow(model, analysis, structure, -1.0, hooks, states, result));
+    if (growing) static_cast<void>(follow(model, analysis, structure, capacity, 1.0, hooks, states, result));
+    if (falling) static_cast<void>(follow(model, analysis, structure, capacity, -1.0, hooks, states, result));
   }
 }
 
@@ -358,12 +366,11 @@ void report_stability(const Analysis& analysis, Result& result) {
 }  // namespace
 
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
-                const std::vector<char>& held, const Hooks& hooks, Result& result,
-                const StateVisitor& visit) {
-  StaticRows states(model, analysis, structure, held, visit);
+                const HeldRows& held, const Hooks& hooks, Result& result, const StateVisitor& visit) {
+  StaticRows states(model, analysis, structure, held.factors, visit);
   result.summary.termination = "load_factors";
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
-  if (!unless_cancelled([&] { compute(model, analysis, structure, hooks, states, result); }))
+  if (!unless_cancelled([&] { compute(model, analysis, structure, held.capacity, hooks, states, result); }))
     fail(result, "cancelled", "cancelled before all load factors were reached");
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
     if (states.lacks(i))

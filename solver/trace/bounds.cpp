@@ -57,7 +57,15 @@ BoundedEnd end_at(PointSolver& solver, const Crossing& crossing, const PathPoint
   return {root.root, found, crossing.end};
 }
 
+/// Share of a limit of supports from which on a path that cannot go on has met the capacity. Geometry, or the
+/// finite displacements at which laws approach their capacity, take the rest; chosen.
+constexpr double kNearCapacity = 0.9;
+
 }  // namespace
+
+bool CapacityRule::is_near(double lambda) const {
+  return lambda < 0.0 ? lambda <= kNearCapacity * limits[0] : lambda >= kNearCapacity * limits[1];
+}
 
 std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rules, const PathPoint& from,
                                       const PathPoint& to, bool kink) {
@@ -68,6 +76,9 @@ std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rul
   if (rules.load)
     add(crossing_of({[](const PathPoint& point) { return point.lambda; }, *rules.load}, TraceEnd::load_factor,
                     to));
+  if (rules.capacity)
+    add(crossing_of({[](const PathPoint& point) { return point.lambda; }, rules.capacity->range},
+                    TraceEnd::capacity, to));
   if (rules.monitor) add(crossing_of(*rules.monitor, TraceEnd::monitor, to));
   if (rules.controlled) {
     const Quantity& controlled = *rules.controlled;
@@ -83,7 +94,8 @@ std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rul
     if (first && end.found && first->point.arc_length <= end.point.arc_length) continue;
     first = std::move(end);
     if (!first->found) break;
-    if (crossing.end == TraceEnd::load_factor) move_to_load(solver, crossing.bound, first->point);
+    if (crossing.end == TraceEnd::load_factor || crossing.end == TraceEnd::capacity)
+      move_to_load(solver, crossing.bound, first->point);
   }
   return first;
 }

@@ -53,6 +53,7 @@ class Tracer {
   [[nodiscard]] bool begin(PathPoint& from);
   [[nodiscard]] bool next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& accepted);
   [[nodiscard]] bool stop_before_step(const PathPoint& point, int steps, const std::stop_token& stop);
+  [[nodiscard]] bool leaves_capacity(const PathPoint& point);
   [[nodiscard]] bool unpinned_loses_stability(const PathPoint& from);
   void complete_step(const PathPoint& from, StepSize& size, PathPoint& to, TracedStep& step);
   [[nodiscard]] bool record(const PathPoint& from, PathPoint& to, TracedStep& step,
@@ -82,8 +83,9 @@ class Tracer {
   const PathObservers& observers_;
   TraceOutcome out_;
   int limit_points_ = 0;
-  double travelled_ = 0.0;   ///< sum of the displacements of all steps
-  SharedModes first_modes_;  ///< softest motions where the path begins, on one-sided supports
+  double travelled_ = 0.0;                  ///< sum of the displacements of all steps
+  std::optional<PathPoint> near_capacity_;  ///< last point near the capacity of supports, with a growing load
+  SharedModes first_modes_;                 ///< softest motions where the path begins, on one-sided supports
   ImperfectBifurcations broken_;
 };
 
@@ -99,7 +101,8 @@ void Tracer::measure_arc(const PathPoint& from, std::vector<CriticalEvent>& even
 }
 
 bool Tracer::finish(TraceEnd end, const PathPoint& last) {
-  out_.end = end;
+  const bool gives_up = end == TraceEnd::displacement_bound || end == TraceEnd::step_underflow;
+  out_.end = gives_up && rules_.capacity && rules_.capacity->is_near(last.lambda) ? TraceEnd::capacity : end;
   out_.last = last;
   return true;
 }
@@ -140,8 +143,11 @@ bool Tracer::ends_path(const CriticalEvent& event) {
   const bool lost = is_loss(event);
   const bool loss = rules_.first_loss_of_stability && lost;
   const bool last_limit = rules_.limit_points && limit_points_ >= *rules_.limit_points;
+  const bool exhausted = !passed_by && event.type != CriticalType::flutter && rules_.capacity &&
+                         rules_.capacity->is_near(event.point.lambda) &&
+                         rules_.capacity->moves_rigidly(event);
   const bool too_many = !passed_by && is_too_unstable(event.point, event.negative_after);
-  if (!loss && !last_limit && !too_many) return false;
+  if (!loss && !last_limit && !too_many && !exhausted) return false;
   PathPoint last = event.point;
   // Newton's method ends on either side of a singular tangent
   if (too_many || event.type == CriticalType::flutter)
@@ -149,7 +155,8 @@ bool Tracer::ends_path(const CriticalEvent& event) {
   else if (event.null.size() > 0)
     last.negative = solver_.negative_at(last);
   out_.on_critical = true;
-  const TraceEnd end = loss         ? TraceEnd::critical_point
+  const TraceEnd end = exhausted    ? TraceEnd::capacity
+                       : loss       ? TraceEnd::critical_point
                        : last_limit ? TraceEnd::limit_points
                                     : TraceEnd::negative_eigenvalues;
   return finish(end, last);
@@ -192,9 +199,21 @@ void Tracer::find_modes(const PathPoint& from, PathPoint& to) {
   solver_.find_modes(to, from.holds == to.holds ? known : nullptr);
 }
 
+/// Whether a path near the capacity of its supports has turned, or jumped to another one, without a critical
+/// point that was found: on a plateau the load does not tell the sense of the path.
+bool Tracer::leaves_capacity(const PathPoint& point) {
+  if (!rules_.capacity) return false;
+  if (rules_.capacity->is_near(point.lambda) && point.lambda * point.tangent_lambda > 0.0) {
+    near_capacity_ = point;
+    return false;
+  }
+  return near_capacity_ && finish(TraceEnd::capacity, *near_capacity_);
+}
+
 /// What ends the path before the next step is tried; false when nothing does.
 bool Tracer::stop_before_step(const PathPoint& point, int steps, const std::stop_token& stop) {
   if (stop.stop_requested()) return finish(TraceEnd::cancelled, point);
+  if (leaves_capacity(point)) return true;
   if (is_too_unstable(point, point.negative)) return finish(TraceEnd::negative_eigenvalues, point);
   if (steps >= rules_.steps) return finish(TraceEnd::steps, point);
   if (follower_.norm().metric().norm(point.y, 0.0) > rules_.gradient || travelled_ > rules_.travel ||
@@ -228,6 +247,7 @@ bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
   }
   travelled_ += follower_.norm().metric().norm(to.y - from.y, 0.0);
   bool ended = report_events(reached);
+  if (!reached.empty()) near_capacity_.reset();
   if (ended) to = out_.last;
   const double least = ended || reached.empty() ? from.arc_length : reached.back().point.arc_length;
   to.arc_length = std::max(to.arc_length, beyond(least));

@@ -26,11 +26,25 @@ struct BoundedQuantity {
   std::array<double, 2> range{};
 };
 
+/// Limit loads of supports with a capacity, as small displacements have them (CapacityEnds).
+struct CapacityRule {
+  std::array<double, 2> limits{};  ///< least and largest load factor that the supports hold; infinite: any
+  /// Range of the load factor that ends the path: the rest up to a limit takes displacements that grow
+  /// without bound.
+  std::array<double, 2> range{};
+  /// Whether the motion that loses its stiffness at a critical point moves each member as a whole.
+  std::function<bool(const CriticalEvent&)> moves_rigidly;
+
+  /// Whether a path that cannot go on at a load factor has met the capacity of its supports.
+  [[nodiscard]] bool is_near(double lambda) const;
+};
+
 /// Stop rules in the path's own units (scaled load factors, scaled unknowns); empty rules do not stop.
 struct TraceRules {
   bool first_loss_of_stability = false;
   std::optional<int> limit_points;            ///< number of limit points, the last of which ends the path
   std::optional<std::array<double, 2>> load;  ///< range of the load factor
+  std::optional<CapacityRule> capacity;       ///< empty: supports hold any load
   std::optional<BoundedQuantity> monitor;
   std::optional<Quantity> controlled;  ///< ends the path where it turns back (displacement control)
   int steps = 1000;
@@ -72,6 +86,7 @@ enum class TraceEnd {
   negative_eigenvalues,
   displacement_bound,
   load_bound,
+  capacity,
   cancelled,
   step_underflow,
   no_start
