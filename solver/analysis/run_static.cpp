@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/accuracy/static_states.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/capacity_rule.h"
 #include "solver/analysis/frequency_probe.h"
@@ -51,7 +52,8 @@ class StaticRows {
   }
 
   /// @param negative number of negative eigenvalues of the tangent at y
-  void set(std::size_t index, const VectorXd& y, int negative);
+  /// @param holds springs on motions without stiffness at y
+  void set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds);
   [[nodiscard]] bool has(std::size_t index) const { return rows_[index].has_value(); }
   /// Whether a requested row is still missing.
   [[nodiscard]] bool lacks(std::size_t index) const { return asked_[index] != 0 && !has(index); }
@@ -62,6 +64,13 @@ class StaticRows {
       if (asked_[i] != 0 && condition(analysis_.load_factors[i])) return true;
     return false;
   }
+  /// The equilibria of all rows so far.
+  [[nodiscard]] std::vector<StaticState> equilibria() const {
+    std::vector<StaticState> out;
+    for (const auto& row : rows_)
+      if (row) out.push_back(row->equilibrium);
+    return out;
+  }
   /// Fills the table, the states and the list of load factors that were not reached.
   void move_to(Result& result);
 
@@ -69,7 +78,7 @@ class StaticRows {
   struct Row {
     VectorXd monitors;
     std::vector<double> contact;
-    int negative = 0;
+    StaticState equilibrium;
     std::optional<State> state;
     std::optional<Frequencies> frequencies;
   };
@@ -94,10 +103,13 @@ bool StaticRows::wants_state(std::size_t index) const {
   return state_loads_.contains(analysis_.load_factors[index]);
 }
 
-void StaticRows::set(std::size_t index, const VectorXd& y, int negative) {
+void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds) {
   const double lambda = analysis_.load_factors[index] * structure_.scales.load;
   Row row{VectorXd(static_cast<Eigen::Index>(structure_.monitors.size())),
-          contact_fractions(structure_, model_, y), negative, std::nullopt, std::nullopt};
+          contact_fractions(structure_, model_, y),
+          {index, y, lambda, negative, holds},
+          std::nullopt,
+          std::nullopt};
   for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
     row.monitors[static_cast<Eigen::Index>(i)] = structure_.monitors[i].row.dot(y);
   if (probe_)
@@ -125,7 +137,7 @@ void StaticRows::move_to(Result& result) {
     }
     Row& row = *rows_[i];
     table.load_factor.push_back(analysis_.load_factors[i]);
-    table.negative_eigenvalues.emplace_back(row.negative);
+    table.negative_eigenvalues.emplace_back(row.equilibrium.negative);
     for (std::size_t m = 0; m < table.monitors.size(); ++m)
       table.monitors[m].values.push_back(row.monitors[static_cast<Eigen::Index>(m)]);
     for (std::size_t f = 0; f < table.contact_fraction.size(); ++f)
@@ -258,7 +270,7 @@ class StaticObserver final : public PathObserver {
       const bool passed = (from.lambda - target) * (to.lambda - target) <= 0.0;
       if (!states_.lacks(i) || !(reached || passed)) continue;
       const PathPoint point = reached ? to : point_at_load(solver_, from, to, target);
-      states_.set(i, point.y, point.negative);
+      states_.set(i, point.y, point.negative, point.holds);
     }
   }
 
@@ -293,7 +305,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (analysis.load_factors[i] == 0.0 && states.lacks(i))
-      states.set(i, start.point->y, start.point->negative);
+      states.set(i, start.point->y, start.point->negative, start.point->holds);
   if (last == 0.0) return true;
   TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
   rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.load_factors);
@@ -318,7 +330,7 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
       if (!states.lacks(i)) continue;
       SharedHolds holds;
       if (const auto state = solve_linear(structure, problem, analysis.load_factors[i], holds, result)) {
-        states.set(i, state->y, state->tangent.negative);
+        states.set(i, state->y, state->tangent.negative, holds);
         neutral.note(holds, analysis.load_factors[i]);
       } else {
         fail(result, "no_convergence",
@@ -331,6 +343,27 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
     if (growing) static_cast<void>(follow(model, analysis, structure, capacity, 1.0, hooks, states, result));
     if (falling) static_cast<void>(follow(model, analysis, structure, capacity, -1.0, hooks, states, result));
   }
+}
+
+/// The states of a static analysis on a mesh that meets its accuracy.
+RefinedStates refined(const Model& model, const Analysis& analysis, const Structure& structure,
+                      const Hooks& hooks, const std::vector<StaticState>& states, Result& result) {
+  Analysis bare = analysis;
+  bare.output.states = StateOutput::none;
+  bare.output.frequencies = 0;
+  bare.output.extremes = false;
+  const Hooks quiet{hooks.stop};
+  const auto find = [&](const Structure& finer, const std::vector<StaticState>& wanted) {
+    std::vector<char> asked(analysis.load_factors.size(), 0);
+    for (const StaticState& state : wanted) asked[state.row] = 1;
+    StaticRows rows(model, bare, finer, asked, {});
+    Result found;
+    found.diagnostics.factorizations = 0;
+    compute(model, bare, finer, quiet, rows, found);
+    result.diagnostics.factorizations += found.diagnostics.factorizations;
+    return rows.equilibria();
+  };
+  return refine_states(model, analysis.discretization, structure, states, find);
 }
 
 /// Reports the stability of the rows, in the message or in a warning.
@@ -375,7 +408,20 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
     if (states.lacks(i))
       fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");
-  states.move_to(result);
+  // vibrations are compared on meshes of their own
+  const std::vector<StaticState> found = states.equilibria();
+  std::optional<RefinedStates> finer;
+  std::optional<StaticRows> of_finer;
+  if (!visit && !found.empty() && !analysis.discretization.fixed_mesh)
+    static_cast<void>(
+        unless_cancelled([&] { finer = refined(model, analysis, structure, hooks, found, result); }));
+  if (finer && finer->structure.get() != &structure) {
+    of_finer.emplace(model, analysis, *finer->structure, held, visit);
+    for (const StaticState& state : finer->states)
+      of_finer->set(state.row, state.y, state.negative, state.holds);
+  }
+  if (finer) report_accuracy(*finer, analysis.discretization, result);
+  (of_finer ? *of_finer : states).move_to(result);
   warn_of_untested_flutter(model, structure, result);
   report_stability(analysis, result);
 }

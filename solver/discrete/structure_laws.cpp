@@ -92,15 +92,21 @@ void bound_stiffness(const Model& model, Structure& structure) {
   const Mesh& mesh = structure.mesh;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const auto length_of = [&](int e) {
+      const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
+      return (cell.to - cell.from) * structure.axes[m]->length();
+    };
+    double longest = 0.0;
+    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) longest = std::max(longest, length_of(e));
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
-      const double length = (cell.to - cell.from) * structure.axes[m]->length();
       const double least = std::min(EI.at(cell.from), EI.at(cell.to));
-      const auto at_decay = [&](double lengths) {
-        return structure.scales.scaled_modulus(4.0 * least / std::pow(length / lengths, 4));
+      const auto at_decay = [&](double length) {
+        return structure.scales.scaled_modulus(4.0 * least / std::pow(length, 4));
       };
-      structure.stiffest.push_back(at_decay(mesh.decay_lengths));
-      structure.stiffest_rigid.push_back(at_decay(kResolvedDecays));
+      structure.stiffest.push_back(at_decay(length_of(e) / mesh.decay_lengths));
+      // a bed that were stiffer beside short elements would bend the member there
+      structure.stiffest_rigid.push_back(at_decay(longest / kResolvedDecays));
     }
   }
 }
