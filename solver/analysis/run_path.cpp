@@ -307,7 +307,7 @@ bool BranchFollower::follow(const Pending& pending) {
   rules.first_step = 0.02;
   bound_negative(analysis_, first->negative, watch_, rules);
   rules.finer_imperfection = [this](const CriticalEvent& event) { return loads_.finer_imperfection(event); };
-  rules.zones = recorder_.zone_counter();
+  recorder_.ask(rules);
   const TraceOutcome outcome =
       trace(follower_, first, rules, analysis_.step, {&watch_, &recorder_, &loads_}, hooks_.stop);
   recorder_.end_branch(text_of(outcome.end).code);
@@ -403,6 +403,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   recorder.begin_branch();
   TraceRules rules = primary_rules(model, analysis, structure, capacity, problem, loads, recorder);
   bound_negative(analysis, start.point->negative, watch, rules);
+  recorder.ask(rules);
   std::optional<FlutterSearch> flutter;
   rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
   for (const CriticalPoint& point : earlier)

@@ -15,12 +15,12 @@
 #include "solver/analysis/softest_point.h"
 #include "solver/analysis/vibration_rule.h"
 #include "solver/events/critical_mode.h"
-#include "solver/events/root_finder.h"
 #include "solver/events/touching.h"
 #include "solver/hooks.h"
 #include "solver/newton/contact_state.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 #include "solver/report/critical_point.h"
 #include "solver/report/mode.h"
 #include "solver/report/neutral_motion.h"
@@ -32,6 +32,11 @@ namespace snapthrough {
 namespace {
 
 using Eigen::VectorXd;
+
+/// Limits of rows with small displacements.
+struct LinearRows {
+  static constexpr int corrections = 60;  ///< most corrections of a state whose contact is known
+};
 
 /// Stores the requested output of each load factor in request order.
 class StaticRows {
@@ -51,9 +56,12 @@ class StaticRows {
     if (analysis.output.frequencies > 0) probe_.emplace(structure, model, analysis);
   }
 
+  /// Adds a row, unless its state is no equilibrium: then its text tells by how much.
   /// @param negative number of negative eigenvalues of the tangent at y
   /// @param holds springs on motions without stiffness at y
   void set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds);
+  /// The states that set() refused; empty: none.
+  [[nodiscard]] const std::string& refused() const { return refused_; }
   [[nodiscard]] bool has(std::size_t index) const { return rows_[index].has_value(); }
   /// Whether a requested row is still missing.
   [[nodiscard]] bool lacks(std::size_t index) const { return asked_[index] != 0 && !has(index); }
@@ -93,6 +101,7 @@ class StaticRows {
   Observer observer_;
   std::set<double> state_loads_;  ///< load factors with requested states
   std::vector<std::optional<Row>> rows_;
+  std::string refused_;
 };
 
 bool StaticRows::wants_state(std::size_t index) const {
@@ -105,6 +114,10 @@ bool StaticRows::wants_state(std::size_t index) const {
 
 void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds) {
   const double lambda = analysis_.load_factors[index] * structure_.scales.load;
+  if (const double left = imbalance(structure_, model_, y, lambda); !(left <= StateLimits::imbalance)) {
+    refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(analysis_.load_factors[index], left);
+    return;
+  }
   Row row{VectorXd(static_cast<Eigen::Index>(structure_.monitors.size())),
           contact_fractions(structure_, model_, y),
           {index, y, lambda, negative, holds},
@@ -151,6 +164,23 @@ void StaticRows::move_to(Result& result) {
   observer_.finish(result);
 }
 
+/// Corrects a state to rounding, where the search for contact stopped before. A state that is as exact as
+/// stiff supports and pins let it be stays; imbalance() judges it.
+void settle_to_rounding(StructuralProblem& problem, const PathMetric& metric, double lambda, Workspace& work,
+                        int& factorizations, ContactState& state) {
+  problem.residual(state.y, lambda, work.residual);
+  state.relative_residual = problem.relative_residual(work.residual, state.y, lambda);
+  const double rounding = std::max(Rounding::largest_residual, problem.residual_rounding(state.y, lambda));
+  if (state.relative_residual <= rounding) return;
+  const double size = std::max(metric.norm(state.y, 0.0), kRoundingResidual);
+  VectorXd y = state.y;
+  const CorrectorOutcome outcome =
+      correct(problem, metric, {}, size, downhill({}, LinearRows::corrections), y, lambda, work);
+  factorizations += outcome.factorisations;
+  if (outcome.status == CorrectorStatus::converged)
+    state = {std::move(y), outcome.tangent, outcome.relative_residual};
+}
+
 /// Equilibrium at one load factor with small displacements and unilateral contact.
 /// @param holds set to the springs on motions without stiffness
 std::optional<ContactState> solve_linear(const Structure& structure, StructuralProblem& problem,
@@ -166,6 +196,7 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
     problem.set_holds(holds);
     state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
   }
+  if (state) settle_to_rounding(problem, metric, lambda, work, result.diagnostics.factorizations, *state);
   result.diagnostics.iterations = result.diagnostics.factorizations;
   if (state)
     result.diagnostics.max_relative_residual =
@@ -203,10 +234,15 @@ void fail_at(const Model& model, const Analysis& analysis, const Structure& stru
            motion_text(mode, model));
 }
 
-/// Trace rules of a static path up to a load factor bound.
-TraceRules static_rules(const Model& model, const Analysis& analysis, double bound) {
+/// Trace rules of a static path up to a load factor.
+/// @param scale scaled load factor of the load factor 1
+TraceRules static_rules(const Model& model, const Analysis& analysis, const StaticRows& states, double last,
+                        double scale) {
   TraceRules rules;
-  rules.load = {{-bound, bound}};
+  rules.load = {{-last * scale, last * scale}};
+  for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
+    if (states.lacks(i)) rules.asked.loads.push_back({i, analysis.load_factors[i] * scale});
+  rules.asked.once = true;
   rules.limit_points = 1;
   rules.first_loss_of_stability = analysis.unstable == Unstable::refuse;
   rules.locate = locate_options(model, analysis);
@@ -242,10 +278,9 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
 class StaticObserver final : public PathObserver {
  public:
   StaticObserver(const Model& model, const Analysis& analysis, const Structure& structure,
-                 PointSolver& solver, SoftestPoint& softest, StaticRows& states, Result& result)
+                 SoftestPoint& softest, StaticRows& states, Result& result)
       : analysis_(analysis),
         structure_(structure),
-        solver_(solver),
         softest_(softest),
         states_(states),
         result_(result),
@@ -262,22 +297,14 @@ class StaticObserver final : public PathObserver {
     result_.warnings.push_back({"unstable", "vibrations grow (flutter) from load factor " +
                                                 number(event.point.lambda / structure_.scales.load) + " on"});
   }
-  void on_step(const PathPoint& from, const PathPoint& to) override {
-    softest_.add_step(from, to);
-    for (std::size_t i = 0; i < analysis_.load_factors.size(); ++i) {
-      const double target = analysis_.load_factors[i] * structure_.scales.load;
-      const bool reached = std::abs(to.lambda - target) <= kSameLoadFactor * std::abs(target);
-      const bool passed = (from.lambda - target) * (to.lambda - target) <= 0.0;
-      if (!states_.lacks(i) || !(reached || passed)) continue;
-      const PathPoint point = reached ? to : point_at_load(solver_, from, to, target);
-      states_.set(i, point.y, point.negative, point.holds);
-    }
+  void on_asked(std::size_t row, const PathPoint& state) override {
+    states_.set(row, state.y, state.negative, state.holds);
   }
+  void on_step(const PathPoint& from, const PathPoint& to) override { softest_.add_step(from, to); }
 
  private:
   const Analysis& analysis_;
   const Structure& structure_;
-  PointSolver& solver_;
   SoftestPoint& softest_;
   StaticRows& states_;
   Result& result_;
@@ -304,14 +331,14 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   }
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
-    if (analysis.load_factors[i] == 0.0 && states.lacks(i))
+    if (analysis.load_factors[i] == 0.0 && start.point->lambda == 0.0 && states.lacks(i))
       states.set(i, start.point->y, start.point->negative, start.point->holds);
   if (last == 0.0) return true;
-  TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
+  TraceRules rules = static_rules(model, analysis, states, last, structure.scales.load);
   rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.load_factors);
   std::optional<FlutterSearch> flutter;
   rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
-  StaticObserver observer(model, analysis, structure, solver, softest, states, result);
+  StaticObserver observer(model, analysis, structure, softest, states, result);
   const TraceOutcome outcome = trace(follower, start.point, rules, analysis.step, {&observer}, hooks.stop);
   add_statistics(follower.statistics(), result);
   softest.report(structure, model, analysis, result);
@@ -405,6 +432,7 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
   if (!unless_cancelled([&] { compute(model, analysis, structure, held.capacity, hooks, states, result); }))
     fail(result, "cancelled", "cancelled before all load factors were reached");
+  if (!result.failure && !states.refused().empty()) fail(result, "no_convergence", states.refused());
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
     if (states.lacks(i))
       fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");

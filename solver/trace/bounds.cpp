@@ -61,6 +61,16 @@ BoundedEnd end_at(PointSolver& solver, const Crossing& crossing, const PathPoint
 /// finite displacements at which laws approach their capacity, take the rest; chosen.
 constexpr double kNearCapacity = 0.9;
 
+/// Locates the end of a step on a bound of the load, at that load; elsewhere where the step began beyond it.
+BoundedEnd end_at_load(PointSolver& solver, const Crossing& crossing, const PathPoint& from,
+                       const PathPoint& to, bool kink) {
+  if ((crossing.value(from) > 0.0) == (crossing.value(to) > 0.0))
+    return end_at(solver, crossing, from, to, kink);
+  std::optional<PathPoint> at = point_at_load(solver, from, to, crossing.bound);
+  const bool found = at.has_value();
+  return {found ? *std::move(at) : to, found, crossing.end};
+}
+
 }  // namespace
 
 bool CapacityRule::is_near(double lambda) const {
@@ -90,12 +100,12 @@ std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rul
   }
   std::optional<BoundedEnd> first;
   for (const Crossing& crossing : crossings) {
-    BoundedEnd end = end_at(solver, crossing, from, to, kink);
+    const bool is_load = crossing.end == TraceEnd::load_factor || crossing.end == TraceEnd::capacity;
+    BoundedEnd end = is_load ? end_at_load(solver, crossing, from, to, kink)
+                             : end_at(solver, crossing, from, to, kink);
     if (first && end.found && first->point.arc_length <= end.point.arc_length) continue;
     first = std::move(end);
     if (!first->found) break;
-    if (crossing.end == TraceEnd::load_factor || crossing.end == TraceEnd::capacity)
-      move_to_load(solver, crossing.bound, first->point);
   }
   return first;
 }

@@ -9,6 +9,7 @@
 #include "solver/events/locate.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/path/pinned_motions.h"
+#include "solver/trace/asked_states.h"
 #include "solver/trace/bifurcations_ahead.h"
 #include "solver/trace/bounds.h"
 #include "solver/trace/imperfect_bifurcations.h"
@@ -44,6 +45,7 @@ class Tracer {
         solver_(follower.solver()),
         rules_(rules),
         observers_(observers),
+        asked_(solver_, rules.asked),
         broken_(rules, follower.norm()) {}
 
   TraceOutcome run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop);
@@ -86,6 +88,7 @@ class Tracer {
   double travelled_ = 0.0;                  ///< sum of the displacements of all steps
   std::optional<PathPoint> near_capacity_;  ///< last point near the capacity of supports, with a growing load
   SharedModes first_modes_;                 ///< softest motions where the path begins, on one-sided supports
+  AskedStateSearch asked_;
   ImperfectBifurcations broken_;
 };
 
@@ -255,6 +258,9 @@ bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
   for (const ContactChange& change : step.changes)
     if (change.point.arc_length <= to.arc_length)
       tell([&](PathObserver& observer) { observer.on_contact(change); });
+  asked_.tell(from, to, [&](std::size_t row, const PathPoint& state) {
+    tell([&](PathObserver& observer) { observer.on_asked(row, state); });
+  });
   tell([&](PathObserver& observer) { observer.on_step(from, to); });
   // a bifurcation at the end of a step is reported as such, and has no count of its own
   if (ended || !step.onto_bifurcation) tell([&](PathObserver& observer) { observer.on_point(to); });
@@ -298,7 +304,8 @@ bool Tracer::unpinned_loses_stability(const PathPoint& from) {
 }
 
 /// Tries one step of the path: onto bifurcations that are predicted, or as the follower takes it. A step is
-/// taken back when its ends are on two paths, or when it crosses a bound at a point that is not found.
+/// taken back when its ends are on two paths, or when it crosses a bound or an asked load at a point that is
+/// not found.
 /// @param accepted whether `to` is the path's next point
 /// @return whether the path ends
 bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& accepted) {
@@ -327,7 +334,9 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
   if (step.kink) measure_arc(from, step.located.events, to);
   const auto bound =
       step.located.same_path ? first_bound(solver_, rules_, from, to, step.kink) : std::nullopt;
-  if (!step.located.same_path || (bound && !bound->found)) {
+  // on the shortest steps no other state is found: the path goes on without it
+  if (!step.located.same_path || (bound && !bound->found) ||
+      (!asked_.look_on(from, bound ? bound->point : to) && size.taken > Gradients::tiny)) {
     follower_.reject(size);
     return false;
   }

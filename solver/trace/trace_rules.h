@@ -3,6 +3,7 @@
 /// What ends a path.
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -39,6 +40,18 @@ struct CapacityRule {
   [[nodiscard]] bool is_near(double lambda) const;
 };
 
+/// A load factor at which the state of a path is wanted.
+struct AskedLoad {
+  std::size_t row = 0;  ///< number of the caller for the state
+  double load = 0.0;    ///< scaled load factor
+};
+
+/// Load factors at which the states of a path are wanted.
+struct AskedStates {
+  std::vector<AskedLoad> loads;
+  bool once = false;  ///< the first state at each load alone; else each one that the path passes
+};
+
 /// Stop rules in the path's own units (scaled load factors, scaled unknowns); empty rules do not stop.
 struct TraceRules {
   bool first_loss_of_stability = false;
@@ -48,6 +61,7 @@ struct TraceRules {
   std::optional<BoundedQuantity> monitor;
   std::optional<Quantity> controlled;  ///< ends the path where it turns back (displacement control)
   int steps = 1000;
+  AskedStates asked;       ///< a step over one of these loads is taken only where its state is found
   ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for
   double gradient = 4.0;   ///< norm of the displacement (rms gradient) at which a path is given up
   double travel = 1000.0;  ///< that bound for the sum of all steps' displacements: members that wind up
