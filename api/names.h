@@ -33,7 +33,8 @@ inline constexpr Named<CriticalType> kCriticalTypes[] = {
     {"limit_min", CriticalType::limit_min},     {"broken_bifurcation", CriticalType::broken_bifurcation},
     {"flutter", CriticalType::flutter},         {"capacity", CriticalType::capacity}};
 inline constexpr Named<CriticalCause> kCriticalCauses[] = {{"smooth", CriticalCause::smooth},
-                                                           {"contact", CriticalCause::contact}};
+                                                           {"contact", CriticalCause::contact},
+                                                           {"massless", CriticalCause::massless}};
 
 inline constexpr Named<NoDerivative> kNoDerivatives[] = {
     {"breaks_bifurcation", NoDerivative::breaks_bifurcation},

@@ -97,7 +97,8 @@ inline constexpr auto kFields<CriticalPoint> =
                field("member", &CriticalPoint::member),
                field("mode", &CriticalPoint::mode),
                field<kIfAny>("sensitivities", &CriticalPoint::sensitivities),
-               field<kIfAny>("koiter", &CriticalPoint::koiter)};
+               field<kIfAny>("koiter", &CriticalPoint::koiter),
+               internal(&CriticalPoint::after_growth)};
 
 template <>
 inline constexpr auto kFields<NodeMotion> =

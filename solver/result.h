@@ -18,8 +18,10 @@ enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation,
 [[nodiscard]] constexpr bool is_limit(CriticalType type) {
   return type == CriticalType::limit_max || type == CriticalType::limit_min;
 }
-/// Cause of a change of stability: an eigenvalue crosses zero, or contact changes the stiffness abruptly.
-enum class CriticalCause { smooth, contact };
+/// Cause of a change of stability: an eigenvalue crosses zero; contact changes the stiffness abruptly; or the
+/// freedoms without mass lose their stability, so that the square of a natural frequency becomes infinite and
+/// returns from minus infinity.
+enum class CriticalCause { smooth, contact, massless };
 
 /// Named series with one value for each point of a branch or row of a table.
 struct NamedSeries {
@@ -99,6 +101,7 @@ struct CriticalPoint {
   /// Null vector of the tangent stiffness; at a limit point the path's direction. Only together with `state`.
   std::optional<Mode> mode = {};
   bool confirmed = false;               ///< a finer mesh has the point within the requested accuracy
+  bool after_growth = false;            ///< vibrations grow from an earlier point of the path on
   std::vector<MeshAnswer> meshes = {};  ///< loads on the compared meshes, coarsest first
   /// Imperfection of a bifurcation, about the root mean square slope of the imperfect shape; empty: unknown.
   std::optional<double> imperfection = {};

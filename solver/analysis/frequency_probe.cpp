@@ -11,6 +11,9 @@ struct RowTolerance {
   static constexpr double on_given_mesh = 1e-9;
   static constexpr double most = 1e-6;           ///< where the accuracy chooses the mesh, at most
   static constexpr double over_accuracy = 1e-3;  ///< over the accuracy that was asked for
+  /// Least where the tangent is not symmetric: a motion's residual is as large as the error of its
+  /// eigenvalue, and rounding leaves 1e-12 to 1e-11 of it.
+  static constexpr double unsymmetric = 1e-10;
 };
 
 }  // namespace
@@ -20,10 +23,11 @@ FrequencyProbe::FrequencyProbe(const Structure& structure, const Model& model, c
   const Discretization& mesh = analysis.discretization;
   is_asked_alone_ = analysis.type == AnalysisType::vibration;
   search_.count = is_asked_alone_ ? analysis.modes : analysis.output.frequencies;
-  if (is_asked_alone_) return;
-  search_.tolerance = mesh.fixed_mesh
-                          ? RowTolerance::on_given_mesh
-                          : std::min(RowTolerance::most, RowTolerance::over_accuracy * mesh.accuracy);
+  if (!is_asked_alone_)
+    search_.tolerance = mesh.fixed_mesh
+                            ? RowTolerance::on_given_mesh
+                            : std::min(RowTolerance::most, RowTolerance::over_accuracy * mesh.accuracy);
+  if (structure.unsymmetric()) search_.tolerance = std::max(search_.tolerance, RowTolerance::unsymmetric);
 }
 
 std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, double lambda) {

@@ -106,15 +106,15 @@ void Recorder::spread_points() {
 void Recorder::add_critical(const CriticalEvent& event) {
   CriticalPoint point = critical_point(structure_, event);
   point.branch = branch_;
-  const bool flutters = event.type == CriticalType::flutter;
-  if (event.null.size() > 0 && !is_limit(event.type) && !flutters) point.imperfection = event.imperfection;
+  const bool grows = grows_from(event);
+  if (event.null.size() > 0 && !is_limit(event.type) && !grows) point.imperfection = event.imperfection;
   // the bifurcation beside the path is no equilibrium of the imperfect structure
   const bool passed_by = event.type == CriticalType::broken_bifurcation;
   if (passed_by) point.negative_after = point.negative_before;
   if (!passed_by && analysis_.output.states != StateOutput::none &&
       analysis_.output.states != StateOutput::at_load_factors)
     point.state = add_state(event.point);
-  if (event.null.size() > 0 && point.multiplicity == 1 && !flutters)
+  if (event.null.size() > 0 && point.multiplicity == 1 && !grows)
     if (const auto member = member_that_buckles(structure_, model_, event.null.col(0)))
       point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
@@ -125,8 +125,8 @@ void Recorder::add_critical(const CriticalEvent& event) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
-    if (!flutters) softest_.lose(event.point);
-    if (event.cause == CriticalCause::smooth && !flutters) lost_ = event.point.arc_length;
+    if (!grows) softest_.lose(event.point);
+    if (event.cause == CriticalCause::smooth && !grows) lost_ = event.point.arc_length;
     result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
   }
   result_.critical_points.push_back(std::move(point));

@@ -109,8 +109,11 @@ PathOptions options_of(const Analysis& analysis) {
   return options;
 }
 
-const char* name_of(CriticalType type) {
-  switch (type) {
+/// Name of the kind of a critical point or event.
+template <class Critical>
+const char* name_of(const Critical& point) {
+  if (point.cause == CriticalCause::massless) return "divergence of freedoms without mass";
+  switch (point.type) {
     case CriticalType::bifurcation:
       return "bifurcation";
     case CriticalType::limit_max:
@@ -174,7 +177,7 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double 
   const EndText* end = &text_of(outcome.end);
   std::string message = end->text;
   if (outcome.end == TraceEnd::critical_point)
-    message += std::string(": ") + name_of(outcome.critical.back().type);
+    message += std::string(": ") + name_of(outcome.critical.back());
   if (outcome.end == TraceEnd::limit_points && analysis.control.type == ControlType::load)
     message = "under load control the path ends at its first limit point";
   message += " at load factor " + number(at) + " after " + std::to_string(result.diagnostics.steps) +
@@ -191,7 +194,7 @@ std::string disagreements(const Result& result) {
   for (const CriticalPoint& point : result.critical_points) {
     if (point.confirmed) continue;
     if (++left > MessageLimits::items) continue;
-    text += "; " + std::string(name_of(point.type)) + " at " + number(point.load_factor) + ":";
+    text += "; " + std::string(name_of(point)) + " at " + number(point.load_factor) + ":";
     for (const MeshAnswer& mesh : point.meshes)
       text += " " + std::to_string(mesh.elements) + " elements of order " + std::to_string(mesh.order) + " " +
               (mesh.load_factor ? number(*mesh.load_factor) : std::string("nothing")) + ",";
@@ -213,7 +216,7 @@ const CriticalPoint* first_loss(const Analysis& analysis, const std::vector<Crit
 std::string loss_on_the_way(const Analysis& analysis, const Result& result) {
   const CriticalPoint* loss = first_loss(analysis, result.critical_points);
   if (analysis.type != AnalysisType::path || loss == nullptr) return "";
-  return std::string("first loss of stability: ") + name_of(loss->type) + " at load factor " +
+  return std::string("first loss of stability: ") + name_of(*loss) + " at load factor " +
          number(loss->load_factor) + "; ";
 }
 
@@ -288,7 +291,7 @@ class BranchFollower {
 
 void BranchFollower::add(const TraceOutcome& outcome, int branch) {
   for (const CriticalEvent& event : outcome.critical) {
-    if (event.type != CriticalType::bifurcation) continue;
+    if (event.type != CriticalType::bifurcation || grows_from(event)) continue;
     if (analysis_.branches.follow == Follow::first && !pending_.empty()) return;
     for (const double sign : {1.0, -1.0}) pending_.push_back({event, branch, sign});
     rules_.known.push_back(event.point);
@@ -406,6 +409,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   recorder.ask(rules);
   std::optional<FlutterSearch> flutter;
   rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
+  rules.grows_at_start = start.grows_from.has_value();
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
   const TraceOutcome outcome =
@@ -436,6 +440,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   result.summary.message = loss_on_the_way(analysis, result) + result.summary.message + branches + meshes;
   warn_of_still_monitor(analysis, watch, result);
   warn_of_untested_flutter(model, structure, result);
+  warn_of_growth_at_start(start, result);
   recorder.finish();
   softest.report(structure, model, analysis, result);
   decays = bending_decays(structure, model, outcome.last.y);
@@ -490,8 +495,8 @@ double path_direction(const Analysis& analysis) {
 }
 
 bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) {
-  return point.branch == 0 && point.negative_before == 0 &&
-         (point.negative_after > 0 || point.type == CriticalType::flutter) &&
+  return point.branch == 0 && point.negative_before == 0 && !point.after_growth &&
+         (point.negative_after > 0 || grows_from(point)) &&
          (analysis.start || point.load_factor * path_direction(analysis) > 0.0);
 }
 

@@ -224,13 +224,16 @@ void fail_at(const Model& model, const Analysis& analysis, const Structure& stru
   result.critical_points.push_back(point);
   const bool is_turn = is_limit(event.type);
   const bool flutters = event.type == CriticalType::flutter;
-  const std::string what = is_turn         ? "the path has a limit point"
-                           : flutters      ? "two natural frequencies meet and vibrations grow (flutter)"
+  const bool diverges = event.cause == CriticalCause::massless;
+  const std::string what = is_turn    ? "the path has a limit point"
+                           : flutters ? "two natural frequencies meet and vibrations grow (flutter)"
+                           : diverges ? "the freedoms without mass become unstable: the square of a natural "
+                                        "frequency becomes infinite and then negative (divergence)"
                            : !point.member ? "the structure becomes unstable (bifurcation)"
                                            : "member \"" + *point.member + "\" buckles (bifurcation)";
   fail(result, is_turn ? "beyond_limit_point" : "beyond_critical_point",
        what + " at load factor " + number(point.load_factor) + ", before the asked ones; the motion " +
-           (flutters ? "with that frequency " : "that loses its stiffness there ") +
+           (grows_from(event) ? "with that frequency " : "that loses its stiffness there ") +
            motion_text(mode, model));
 }
 
@@ -293,9 +296,11 @@ class StaticObserver final : public PathObserver {
   void on_unpinned(const PathPoint& point) override { on_point(point); }
   void on_critical(const CriticalEvent& event) override {
     if (event.negative_before == 0 && event.negative_after > 0) softest_.lose(event.point);
-    if (event.type != CriticalType::flutter || analysis_.unstable == Unstable::refuse) return;
-    result_.warnings.push_back({"unstable", "vibrations grow (flutter) from load factor " +
-                                                number(event.point.lambda / structure_.scales.load) + " on"});
+    if (!grows_from(event) || analysis_.unstable == Unstable::refuse) return;
+    result_.warnings.push_back(
+        {"unstable",
+         std::string("vibrations grow (") + (event.type == CriticalType::flutter ? "flutter" : "divergence") +
+             ") from load factor " + number(event.point.lambda / structure_.scales.load) + " on"});
   }
   void on_asked(std::size_t row, const PathPoint& state) override {
     states_.set(row, state.y, state.negative, state.holds);
@@ -330,6 +335,13 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
     return follow(model, analysis, *touching, capacity, direction, hooks, states, result);
   }
   if (!start) return false;
+  if (start.grows_from && analysis.unstable == Unstable::refuse) {
+    warn_of_growth_at_start(start, result);
+    fail(result, "beyond_critical_point", result.warnings.back().detail);
+    result.warnings.pop_back();
+    return false;
+  }
+  warn_of_growth_at_start(start, result);
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (analysis.load_factors[i] == 0.0 && start.point->lambda == 0.0 && states.lacks(i))
       states.set(i, start.point->y, start.point->negative, start.point->holds);

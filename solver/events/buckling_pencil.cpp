@@ -195,6 +195,10 @@ MatrixXd BucklingPencil::apply(const MatrixXd& x, const MatrixXd& weighted) {
     to_global(at_start);
     forces = (at_start - forces) / factorised_;
   }
+  return response(std::move(forces));
+}
+
+MatrixXd BucklingPencil::response(MatrixXd forces) {
   problem_.to_rows(forces);
   problem_.solve(forces);
   return forces;

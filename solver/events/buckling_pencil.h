@@ -32,6 +32,7 @@ class BucklingPencil final : public Pencil {
   [[nodiscard]] Eigen::MatrixXd weighted(const Eigen::MatrixXd& x) override;
   /// J(lambda)^-1 (J_0 - J(lambda)) x / lambda = -J(lambda)^-1 G x. @pre lambda > 0
   [[nodiscard]] Eigen::MatrixXd apply(const Eigen::MatrixXd& x, const Eigen::MatrixXd& weighted) override;
+  [[nodiscard]] Eigen::MatrixXd response(Eigen::MatrixXd forces) override;
   [[nodiscard]] Eigen::MatrixXd works(const Eigen::MatrixXd& x) override;
   [[nodiscard]] Eigen::Index size() const override { return problem_.size(); }
   /// J_0 is an inner product where the start is stable.

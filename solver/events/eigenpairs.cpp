@@ -58,6 +58,7 @@ struct Ritz {
 /// Krylov basis V, orthonormal in W, with W V, the images T V and the projection H = V^T W T V.
 class Basis {
  public:
+  /// @param start columns in the range of T
   /// @param tolerance relative error of eigenvalues
   /// @param most number of columns from which on no block is expanded
   /// @param columns kept by reference
@@ -71,7 +72,7 @@ class Basis {
     for (MatrixXd* one : {&V_, &WV_, &image_})
       if (one->rows() != pencil.size() || one->cols() < all) one->resize(pencil.size(), all);
     H_ = MatrixXd::Zero(all, all);
-    add(pencil_.apply(start, pencil_.weighted(start)));
+    add(start);
   }
   [[nodiscard]] Index size() const { return columns_; }
   [[nodiscard]] Index expanded() const { return expanded_; }
@@ -240,14 +241,23 @@ MatrixXd start_of(const MatrixXd& near, Index size, Index others, unsigned seed)
   return out;
 }
 
+/// Images of the columns to begin with: the responses to forces, and T of the columns.
+MatrixXd images_of(Pencil& pencil, const MatrixXd& forces, const MatrixXd& start) {
+  MatrixXd out(pencil.size(), start.cols() + forces.cols());
+  if (start.cols() > 0) out.leftCols(start.cols()) = pencil.apply(start, pencil.weighted(start));
+  if (forces.cols() > 0) out.rightCols(forces.cols()) = pencil.response(forces);
+  return out;
+}
+
 /// One Krylov search with the present factors.
 /// @param start columns to begin with
 /// @param width number of columns beside those nearby
 void search_at(Pencil& pencil, double shift, const EigenSearch& search, const MatrixXd& start, Index width,
                KrylovColumns& columns, Eigenpairs& out) {
-  const Index most = 3 * search.count + SearchLimits::blocks * width + (start.cols() - width);
+  const Index most = 3 * search.count + SearchLimits::blocks * std::max(width, SearchLimits::block) +
+                     (start.cols() - width);
   const double rest = pencil.is_symmetric() ? std::sqrt(search.tolerance) : search.tolerance;
-  Basis basis(pencil, start, search.tolerance, most, columns);
+  Basis basis(pencil, images_of(pencil, search.forces, start), search.tolerance, most, columns);
   // the first image of a vector does not tell whether the vector is an eigenvector
   const Index least = 2 * basis.size();
   std::vector<Ritz> pairs;
@@ -340,7 +350,8 @@ Eigenpairs lowest_eigenpairs(Pencil& pencil, Shift& shift, const EigenSearch& se
                              KrylovColumns& columns) {
   Eigenpairs out;
   const bool symmetric = pencil.is_symmetric();
-  Index width = SearchLimits::block - search.near.cols() % SearchLimits::block;
+  Index width =
+      search.forces.cols() > 0 ? 0 : SearchLimits::block - search.near.cols() % SearchLimits::block;
   MatrixXd start = start_of(search.near, pencil.size(), width, 0U);
   bool is_scaled = false;
   for (unsigned seed = 1; seed <= SearchLimits::tries; ++seed) {

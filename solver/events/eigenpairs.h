@@ -24,6 +24,8 @@ class Pencil {
   [[nodiscard]] virtual Eigen::MatrixXd weighted(const Eigen::MatrixXd& x) = 0;
   /// T x of each column x. @param weighted W x @pre factorise()
   [[nodiscard]] virtual Eigen::MatrixXd apply(const Eigen::MatrixXd& x, const Eigen::MatrixXd& weighted) = 0;
+  /// (A - shift B)^-1 times forces on the unknowns, in global axes. @pre factorise()
+  [[nodiscard]] virtual Eigen::MatrixXd response(Eigen::MatrixXd forces) = 0;
   /// x^T A x for the columns of x, by products with A and not with factors.
   [[nodiscard]] virtual Eigen::MatrixXd works(const Eigen::MatrixXd& x) = 0;
   [[nodiscard]] virtual Eigen::Index size() const = 0;
@@ -47,6 +49,9 @@ struct EigenSearch {
   double tolerance = 1e-12;
   bool counted = true;        ///< inertia counts confirm that no eigenvalue was missed (symmetric pencils)
   Eigen::MatrixXd near = {};  ///< vectors nearby, to begin with; may be empty
+  /// Forces on the unknowns, in global axes. Where there are some, the subspace begins with their responses
+  /// and `near` alone: eigenvectors that it can't reach from there are not searched.
+  Eigen::MatrixXd forces = {};
 };
 
 /// Columns of a Krylov basis, kept from one search to the next: to return and to get as much memory costs as

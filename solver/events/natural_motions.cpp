@@ -38,11 +38,11 @@ class Vibrations final : public Pencil {
   [[nodiscard]] MatrixXd weighted(const MatrixXd& x) override {
     return mass_products(structure_, masses_, x);
   }
-  [[nodiscard]] MatrixXd apply(const MatrixXd&, const MatrixXd& weighted) override {
-    MatrixXd out = weighted;
-    problem_.to_rows(out);
-    problem_.solve(out);
-    return out;
+  [[nodiscard]] MatrixXd apply(const MatrixXd&, const MatrixXd& weighted) override { return response(weighted); }
+  [[nodiscard]] MatrixXd response(MatrixXd forces) override {
+    problem_.to_rows(forces);
+    problem_.solve(forces);
+    return forces;
   }
   [[nodiscard]] MatrixXd works(const MatrixXd& x) override {
     const MatrixXd forces = problem_.tangent_products(y_, lambda_, x);

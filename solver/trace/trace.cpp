@@ -63,7 +63,7 @@ class Tracer {
   [[nodiscard]] bool report_events(const std::vector<CriticalEvent>& events);
   [[nodiscard]] bool ends_path(const CriticalEvent& event);
   void report(const CriticalEvent& event);
-  static void add_flutter(const PathPoint& from, CriticalEvent flutter, std::vector<CriticalEvent>& events);
+  static void add_growth(const PathPoint& from, CriticalEvent growth, std::vector<CriticalEvent>& events);
   void step_to_bifurcation(const std::vector<CriticalEvent>& events, const PathPoint& from, StepSize& size,
                            PathPoint& to);
   void find_modes(const PathPoint& from, PathPoint& to);
@@ -85,6 +85,7 @@ class Tracer {
   const PathObservers& observers_;
   TraceOutcome out_;
   int limit_points_ = 0;
+  bool grows_ = false;                      ///< vibrations grow from a point of the path on
   double travelled_ = 0.0;                  ///< sum of the displacements of all steps
   std::optional<PathPoint> near_capacity_;  ///< last point near the capacity of supports, with a growing load
   SharedModes first_modes_;                 ///< softest motions where the path begins, on one-sided supports
@@ -130,14 +131,14 @@ void Tracer::report(const CriticalEvent& event) {
   tell([&](PathObserver& observer) { observer.on_critical(event); });
 }
 
-/// Adds the flutter that begins on a step to its critical points.
-void Tracer::add_flutter(const PathPoint& from, CriticalEvent flutter, std::vector<CriticalEvent>& events) {
+/// Adds the point of a step from which on vibrations grow to its critical points.
+void Tracer::add_growth(const PathPoint& from, CriticalEvent growth, std::vector<CriticalEvent>& events) {
   auto next = events.begin();
   int count = from.negative;
-  for (; next != events.end() && next->point.arc_length <= flutter.point.arc_length; ++next)
+  for (; next != events.end() && next->point.arc_length <= growth.point.arc_length; ++next)
     if (next->type != CriticalType::broken_bifurcation) count = next->negative_after;
-  flutter.negative_before = flutter.negative_after = count;
-  events.insert(next, std::move(flutter));
+  growth.negative_before = growth.negative_after = count;
+  events.insert(next, std::move(growth));
 }
 
 /// Whether a critical point that was just reported ends the path.
@@ -153,7 +154,7 @@ bool Tracer::ends_path(const CriticalEvent& event) {
   if (!loss && !last_limit && !too_many && !exhausted) return false;
   PathPoint last = event.point;
   // Newton's method ends on either side of a singular tangent
-  if (too_many || event.type == CriticalType::flutter)
+  if (too_many || grows_from(event))
     last.negative = event.negative_after;
   else if (event.null.size() > 0)
     last.negative = solver_.negative_at(last);
@@ -174,8 +175,11 @@ bool Tracer::report_events(const std::vector<CriticalEvent>& events) {
       return finish(TraceEnd::rejoined, last);
     }
     if (is_limit(event.type)) ++limit_points_;
-    report(event);
-    if (ends_path(event)) return true;
+    CriticalEvent met = event;
+    met.after_growth = grows_;
+    grows_ = grows_ || grows_from(event);
+    report(met);
+    if (ends_path(met)) return true;
   }
   return false;
 }
@@ -325,8 +329,8 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
     StepVibrations vibrations = rules_.vibrations(from, to);
     if (vibrations.is_too_long && !step.onto_bifurcation)
       step.located = {{}, false, {}};
-    else if (vibrations.flutter)
-      add_flutter(from, *std::move(vibrations.flutter), step.located.events);
+    else if (vibrations.loss)
+      add_growth(from, *std::move(vibrations.loss), step.located.events);
   }
   const PathMetric& metric = follower_.norm().metric();
   const double cosine = metric.inner(from.tangent, from.tangent_lambda, to.tangent, to.tangent_lambda);
@@ -360,7 +364,9 @@ bool Tracer::begin(PathPoint& from) {
   solver_.find_first_modes(from);
   tell([&](PathObserver& observer) { observer.on_point(from); });
   if (solver_.problem().one_sided()) first_modes_ = std::exchange(from.modes, nullptr);
-  return rules_.first_loss_of_stability && from.negative > 0 && finish(TraceEnd::unstable_at_start, from);
+  grows_ = rules_.grows_at_start;
+  return rules_.first_loss_of_stability && (from.negative > 0 || grows_) &&
+         finish(TraceEnd::unstable_at_start, from);
 }
 
 /// From point to point, until something ends the path.
