@@ -379,6 +379,20 @@ bool confirm_capacity(const Model& model, const Analysis& analysis, const Struct
   return std::ranges::all_of(result.critical_points, &CriticalPoint::confirmed);
 }
 
+/// Sets the rule that follows the natural motions, and what is known of them at the start.
+/// @param flutter has to live as long as the rules
+void add_vibration_rule(const Model& model, const Structure& structure, PointSolver& solver,
+                        const PathStart& start, std::optional<FlutterSearch>& flutter, TraceRules& rules) {
+  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
+  rules.grows_at_start = start.grows_from.has_value();
+}
+
+void warn_of_vibrations(const Model& model, const Structure& structure, const PathStart& start,
+                        Result& result) {
+  warn_of_untested_flutter(model, structure, result);
+  warn_of_growth_at_start(start, result);
+}
+
 /// Follows the path on one mesh.
 /// @param earlier critical points of the path on a coarser mesh
 /// @param decays bending decay lengths at the path's end, for the next mesh
@@ -408,8 +422,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   bound_negative(analysis, start.point->negative, watch, rules);
   recorder.ask(rules);
   std::optional<FlutterSearch> flutter;
-  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
-  rules.grows_at_start = start.grows_from.has_value();
+  add_vibration_rule(model, structure, solver, start, flutter, rules);
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
   const TraceOutcome outcome =
@@ -439,8 +452,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     confirmed = confirm_capacity(model, analysis, structure, *capacity, outcome, primary, confirmed, result);
   result.summary.message = loss_on_the_way(analysis, result) + result.summary.message + branches + meshes;
   warn_of_still_monitor(analysis, watch, result);
-  warn_of_untested_flutter(model, structure, result);
-  warn_of_growth_at_start(start, result);
+  warn_of_vibrations(model, structure, start, result);
   recorder.finish();
   softest.report(structure, model, analysis, result);
   decays = bending_decays(structure, model, outcome.last.y);

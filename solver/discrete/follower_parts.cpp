@@ -72,7 +72,7 @@ void add_forces(const std::vector<Term>& terms, const VectorXd& factors, Eigen::
 
 std::vector<MatrixXd> follower_parts(const Structure& structure, Index columns) {
   ConnectedUnknowns connected(structure);
-  std::map<int, std::size_t> number;  // of a part, by its set of unknowns
+  std::map<int, std::size_t> number;  // number of a part by its set of unknowns
   std::vector<MatrixXd> out;
   unsigned seed = 0;
   const auto add = [&](const auto& load) {

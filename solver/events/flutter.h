@@ -97,7 +97,7 @@ class FlutterSearch {
   KrylovColumns columns_;
   std::vector<Part> parts_;
   std::optional<MasslessSearch> massless_;  ///< where some element has no mass
-  int halvings_ = 0;                        ///< of the present step
+  int halvings_ = 0;                        ///< halvings of the present step
   bool too_long_ = false;                   ///< the present step, see StepVibrations
 };
 

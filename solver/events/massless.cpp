@@ -24,7 +24,7 @@ struct MasslessLimits {
   /// seven digits beside the stiffness.
   static constexpr double sigma = 1e9;
   static constexpr int places = 4;       ///< pieces of a step at whose ends the determinant is evaluated
-  static constexpr int iterations = 4;   ///< of the inverse iteration for the motion
+  static constexpr int iterations = 4;   ///< iterations of the inverse iteration for the motion
   static constexpr double fast = 1e8;    ///< squared rate of a fast growth, over that of a member alone
   static constexpr double faster = 1e2;  ///< squared rate of a faster one, over that of the fast one
   /// Displacement at the faster rate over that at the fast one, above which a place has no mass.

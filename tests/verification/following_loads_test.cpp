@@ -1,10 +1,10 @@
-/// Loads without a potential beside what they do not act on, where members have no mass, after constant actions,
-/// and on one-sided supports.
+/// Loads without a potential beside what they do not act on, where members have no mass, after constant
+/// actions, and on one-sided supports.
 ///
-/// Sources: Beck (1952), flutter of a cantilever of uniform mass at P = 20.0509536 EI / L^2. Without mass but at
-/// the tip, P = 20.1907286 EI / L^2, where tan k = k, P = k^2 EI / L^2: the freedoms without mass are those of a
-/// column that is clamped and pinned at its tip. The symmetric part of Beck's column is not positive from
-/// P = (3 pi / 2)^2 EI / L^2 = 22.2 on, and the column has no load at which it diverges.
+/// Sources: Beck (1952), flutter of a cantilever of uniform mass at P = 20.0509536 EI / L^2. Without mass but
+/// at the tip, P = 20.1907286 EI / L^2, where tan k = k, P = k^2 EI / L^2: the freedoms without mass are
+/// those of a column that is clamped and pinned at its tip. The symmetric part of Beck's column is not
+/// positive from P = (3 pi / 2)^2 EI / L^2 = 22.2 on, and the column has no load at which it diverges.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -104,7 +104,8 @@ TEST(FollowingLoads, ConstantOnesHandTheirStabilityOn) {
   path.stop.load_factor = {{0.0, 40.0}};
   EXPECT_FALSE(solve(with_constant(21.0), path).summary.critical_load_factor);
   for (const double factor : {0.0, 1.0}) {
-    const Result refused = solve(with_constant(21.0), static_on(accurate(1e-3), Geometry::nonlinear, {factor}));
+    const Result refused =
+        solve(with_constant(21.0), static_on(accurate(1e-3), Geometry::nonlinear, {factor}));
     ASSERT_TRUE(refused.failure);
     EXPECT_EQ(refused.failure->code, "beyond_critical_point");
   }
