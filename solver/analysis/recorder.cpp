@@ -25,9 +25,8 @@ std::vector<NamedValue> Recorder::monitors(const PathPoint& point) const {
 
 double Recorder::user_load(const PathPoint& point) const { return point.lambda / structure_.scales.load; }
 
-std::optional<int> Recorder::add_state(const PathPoint& point) {
-  if (const double left = imbalance(structure_, model_, point.y, point.lambda);
-      !(left <= StateLimits::imbalance)) {
+std::optional<int> Recorder::add_state(const PathPoint& point, double most) {
+  if (const double left = imbalance(structure_, model_, point.y, point.lambda); !(left <= most)) {
     refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(user_load(point), left);
     return std::nullopt;
   }
@@ -113,7 +112,8 @@ void Recorder::add_critical(const CriticalEvent& event) {
   if (passed_by) point.negative_after = point.negative_before;
   if (!passed_by && analysis_.output.states != StateOutput::none &&
       analysis_.output.states != StateOutput::at_load_factors)
-    point.state = add_state(event.point);
+    // the tangent is singular there: Newton's method ends with its bound of the residual
+    point.state = add_state(event.point, solver_.options().largest_residual);
   if (event.null.size() > 0 && point.multiplicity == 1 && !grows)
     if (const auto member = member_that_buckles(structure_, model_, event.null.col(0)))
       point.member = model_.members[*member].id;

@@ -13,6 +13,7 @@
 #include "solver/hooks.h"
 #include "solver/report/contact.h"
 #include "solver/report/neutral_motion.h"
+#include "solver/report/state.h"
 #include "solver/trace/path_observer.h"
 #include "solver/trace/trace_rules.h"
 
@@ -66,8 +67,10 @@ class Recorder final : public PathObserver {
   void add_row(const PathPoint& point);
   void spread_points();
   void add_critical(const CriticalEvent& event);
-  /// Adds a state to the result. @return its index; empty for one that is no equilibrium, see imbalance()
-  std::optional<int> add_state(const PathPoint& point);
+  /// Adds a state to the result.
+  /// @param most imbalance() of an equilibrium
+  /// @return its index; empty for a state that is no equilibrium
+  std::optional<int> add_state(const PathPoint& point, double most = StateLimits::imbalance);
   [[nodiscard]] std::vector<NamedValue> monitors(const PathPoint& point) const;
   [[nodiscard]] double user_load(const PathPoint& point) const;
 

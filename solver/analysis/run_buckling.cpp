@@ -313,7 +313,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
       structure.one_sided ? shares_of(structure, laws, problem, buckling.contact) : ContactShares{};
   result.summary.message += contact_text(shares, joined.has_value());
   report_errors(analysis, result);
-  if (!buckling.complete) {
+  if (!buckling.complete && buckling.negative_at_start == 0) {
     withdraw_critical_load(result);
     fail(result, "no_convergence", kIncomplete);
   }

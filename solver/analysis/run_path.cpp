@@ -365,6 +365,7 @@ TraceRules primary_rules(const Model& model, const Analysis& analysis, const Str
   rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.output.at_load_factors);
   if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
+  recorder.ask(rules);
   return rules;
 }
 
@@ -420,7 +421,6 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   recorder.begin_branch();
   TraceRules rules = primary_rules(model, analysis, structure, capacity, problem, loads, recorder);
   bound_negative(analysis, start.point->negative, watch, rules);
-  recorder.ask(rules);
   std::optional<FlutterSearch> flutter;
   add_vibration_rule(model, structure, solver, start, flutter, rules);
   for (const CriticalPoint& point : earlier)

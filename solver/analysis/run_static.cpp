@@ -386,7 +386,8 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
 
 /// The states of a static analysis on a mesh that meets its accuracy.
 RefinedStates refined(const Model& model, const Analysis& analysis, const Structure& structure,
-                      const Hooks& hooks, const std::vector<StaticState>& states, Result& result) {
+                      const CapacityEnds* capacity, const Hooks& hooks,
+                      const std::vector<StaticState>& states, Result& result) {
   Analysis bare = analysis;
   bare.output.states = StateOutput::none;
   bare.output.frequencies = 0;
@@ -398,7 +399,7 @@ RefinedStates refined(const Model& model, const Analysis& analysis, const Struct
     StaticRows rows(model, bare, finer, asked, {});
     Result found;
     found.diagnostics.factorizations = 0;
-    compute(model, bare, finer, quiet, rows, found);
+    compute(model, bare, finer, capacity, quiet, rows, found);
     result.diagnostics.factorizations += found.diagnostics.factorizations;
     return rows.equilibria();
   };
@@ -453,12 +454,13 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
   std::optional<RefinedStates> finer;
   std::optional<StaticRows> of_finer;
   if (!visit && !found.empty() && !analysis.discretization.fixed_mesh)
-    static_cast<void>(
-        unless_cancelled([&] { finer = refined(model, analysis, structure, hooks, found, result); }));
+    static_cast<void>(unless_cancelled(
+        [&] { finer = refined(model, analysis, structure, held.capacity, hooks, found, result); }));
   if (finer && finer->structure.get() != &structure) {
-    of_finer.emplace(model, analysis, *finer->structure, held, visit);
+    of_finer.emplace(model, analysis, *finer->structure, held.factors, visit);
     for (const StaticState& state : finer->states)
       of_finer->set(state.row, state.y, state.negative, state.holds);
+    if (!result.failure && !of_finer->refused().empty()) fail(result, "no_convergence", of_finer->refused());
   }
   if (finer) report_accuracy(*finer, analysis.discretization, result);
   (of_finer ? *of_finer : states).move_to(result);

@@ -22,12 +22,16 @@ namespace snapthrough {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Limits of the eigenvalue search; loads are relative. Source: digits of the counts, docs/decisions/0001.
 struct BucklingLimits {
   static constexpr double held_share = 1e-3;  ///< digits of LinearBuckling::held_share
   static constexpr double tolerance = 1e-14;  ///< relative error of loads that the iteration leaves
+  static constexpr double same = 1e-9;        ///< difference of a load from the Rayleigh quotient of its mode
+  static constexpr double converged = 1e-13;  ///< change of a load at which inverse iteration ends: rounding
+  static constexpr int most_iterations = 60;  ///< inverse iterations at most
   /// Doublings of the first scale; beyond 1e13 times it the elastic stiffness is lost to rounding.
   static constexpr int doublings = 43;
 };
@@ -59,6 +63,47 @@ LoadRange range_of_first(BucklingPencil& pencil, int at_start) {
   return range;
 }
 
+/// Whether the Rayleigh quotient of each mode is its load.
+bool have_their_quotients(BucklingPencil& pencil, const VectorXd& loads, const MatrixXd& modes) {
+  for (Index i = 0; i < loads.size(); ++i)
+    if (!(std::abs(pencil.quotient(modes.col(i)) - loads[i]) <= BucklingLimits::same * loads[i]))
+      return false;
+  return true;
+}
+
+/// Block inverse iteration with Rayleigh-Ritz on the span of y = J(shift)^-1 G x: (y^T G x) c = (shift -
+/// lambda) (y^T G y) c. It evaluates no energies of J_0, which have lost digits where parts of a structure
+/// are stiffer than others by 1e14.
+/// @return whether the loads have converged
+bool iterate(BucklingPencil& pencil, double shift, VectorXd& loads, MatrixXd& modes) {
+  pencil.factorise(shift);
+  for (int n = 0; n < BucklingLimits::most_iterations; ++n) {
+    const MatrixXd forces = pencil.geometric(modes);
+    const MatrixXd y = pencil.response(forces);
+    const RealEigen found =
+        real_eigen(solve_row_pivoting(y.transpose() * forces, y.transpose() * pencil.geometric(y)));
+    VectorXd next = (shift - found.values.array().inverse()).matrix();
+    std::vector<Index> order(static_cast<std::size_t>(next.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::sort(order.begin(), order.end(), [&next](Index a, Index b) { return next[a] < next[b]; });
+    const VectorXd before = loads;
+    for (Index i = 0; i < loads.size(); ++i) {
+      loads[i] = next[order[static_cast<std::size_t>(i)]];
+      const VectorXd mode = y * found.vectors.col(order[static_cast<std::size_t>(i)]);
+      modes.col(i) = mode / mode.lpNorm<Eigen::Infinity>();
+    }
+    if (!loads.allFinite() || !modes.allFinite()) return false;
+    if (((loads - before).cwiseAbs().array() <= BucklingLimits::converged * loads.cwiseAbs().array()).all())
+      return true;
+  }
+  return false;
+}
+
+/// Number of buckling loads below a load factor, by an inertia count.
+int count_below(BucklingPencil& pencil, double load, int at_start) {
+  return pencil.factorise(load) - at_start;
+}
+
 /// The lowest `count` loads of the pencil with its present contact.
 void find_loads(BucklingPencil& pencil, int count, LinearBuckling& out) {
   out.loads.clear();
@@ -74,16 +119,21 @@ void find_loads(BucklingPencil& pencil, int count, LinearBuckling& out) {
   search.tolerance = BucklingLimits::tolerance;
   KrylovColumns columns;
   const Eigenpairs found = lowest_eigenpairs(pencil, shift, search, columns);
-  for (std::size_t i = 0; i < found.values.size(); ++i) {
-    const double load = found.values[i].real();
-    if (!(load > range.lowest && load < range.largest)) continue;
-    const VectorXd mode = found.vectors.col(static_cast<Index>(i));
-    out.loads.push_back(load);
-    out.modes.push_back(mode / mode.lpNorm<Eigen::Infinity>());
+  VectorXd loads(static_cast<Index>(found.values.size()));
+  for (Index i = 0; i < loads.size(); ++i) loads[i] = found.values[static_cast<std::size_t>(i)].real();
+  MatrixXd modes = found.vectors;
+  bool are_loads = found.complete && found.converged;
+  if (loads.size() > 0 && !have_their_quotients(pencil, loads, modes))
+    are_loads = iterate(pencil, shift.at, loads, modes) && have_their_quotients(pencil, loads, modes) &&
+                count_below(pencil, (1.0 - BucklingLimits::same) * loads[0], out.negative_at_start) == 0;
+  for (Index i = 0; i < loads.size(); ++i) {
+    if (!(loads[i] > range.lowest && loads[i] < range.largest)) continue;
+    out.loads.push_back(loads[i]);
+    out.modes.push_back(modes.col(i) / modes.col(i).lpNorm<Eigen::Infinity>());
   }
   const auto all = static_cast<int>(out.loads.size());
-  out.complete = found.complete && found.converged &&
-                 (all == count || pencil.factorise(range.largest) - out.negative_at_start == all);
+  out.complete =
+      are_loads && (all == count || count_below(pencil, range.largest, out.negative_at_start) == all);
 }
 
 /// Largest compression of each member at the Gauss points and the ends of its elements.

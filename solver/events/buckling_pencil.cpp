@@ -210,6 +210,12 @@ MatrixXd BucklingPencil::works(const MatrixXd& x) {
   return x.transpose() * forces;
 }
 
+MatrixXd BucklingPencil::geometric(const MatrixXd& x) {
+  MatrixXd out = products(1.0, x) - products(0.0, x);
+  to_global(out);
+  return out;
+}
+
 double BucklingPencil::quotient(const VectorXd& x) {
   const VectorXd elastic = products(0.0, x);
   const VectorXd geometric = products(1.0, x) - elastic;

@@ -37,6 +37,9 @@ class BucklingPencil final : public Pencil {
   [[nodiscard]] Eigen::Index size() const override { return problem_.size(); }
   /// J_0 is an inner product where the start is stable.
   [[nodiscard]] bool is_symmetric() const override { return is_stable_at_start_; }
+  [[nodiscard]] bool is_searched_above() const override { return true; }
+  /// G x of each column, in global axes.
+  [[nodiscard]] Eigen::MatrixXd geometric(const Eigen::MatrixXd& x);
   void set_stable_at_start(bool is_stable) { is_stable_at_start_ = is_stable; }
   /// Rayleigh quotient of a motion, evaluated with the tangent and not with its factors.
   [[nodiscard]] double quotient(const Eigen::VectorXd& x);

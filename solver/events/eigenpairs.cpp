@@ -37,6 +37,8 @@ struct SearchLimits {
   /// stiffness. Where all are, the shift is out of scale and falls by `scales`.
   static constexpr double zero = 1e-12;
   static constexpr double scales = 1e-9;
+  /// Eigenvalue over the shift that is rounding where 1 / theta alone gives it, in unsymmetric pencils.
+  static constexpr double unrefined = 1e-6;
   static constexpr double conjugate = 1e-12;  ///< difference of the real parts of a pair, over its magnitude
   static constexpr double rounding = 1e-12;   ///< rest of a vector that is rounding, over the largest theta
   /// Eigenvalue over the shift below which 1 / theta has lost digits, and works() give its value.
@@ -118,7 +120,8 @@ class Basis {
   MatrixXd H_;
 };
 
-/// Makes columns orthonormal in W, and removes those that depend on the ones before but for rounding.
+/// Makes columns orthonormal in W, and removes those that depend on the ones before but for rounding, or
+/// whose norm in W is rounding beside that of another column of the same length.
 /// @param weighted W times the columns
 /// @param removed squared norms of the parts that were taken from the columns before
 /// @param dependent part of a column's norm that is rounding
@@ -126,10 +129,16 @@ class Basis {
 double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& removed, double dependent) {
   Index kept = 0;
   double least = 1.0;
+  double unit = 0.0;  // largest squared norm in W of a column of length one
+  for (Index j = 0; j < columns.cols(); ++j)
+    if (columns.col(j).squaredNorm() > 0.0)
+      unit = std::max(unit, columns.col(j).dot(weighted.col(j)) / columns.col(j).squaredNorm());
   for (Index j = 0; j < columns.cols(); ++j) {
     VectorXd v = columns.col(j);
     VectorXd mv = weighted.col(j);
-    const double size = v.dot(mv) + removed[j];
+    const double own = v.dot(mv);
+    const double size = own + removed[j];
+    if (!(own > SearchLimits::dependent * SearchLimits::dependent * unit * v.squaredNorm())) continue;
     const VectorXd along = weighted.leftCols(kept).transpose() * v;
     v.noalias() -= columns.leftCols(kept) * along;
     mv.noalias() -= weighted.leftCols(kept) * along;
@@ -186,6 +195,7 @@ std::vector<Ritz> Basis::ritz() const {
   // what a vector leaves is in the vectors that are not expanded
   const auto beyond = H_.block(expanded_, 0, columns_ - expanded_, expanded_);
   const bool symmetric = pencil_.is_symmetric();
+  const bool above = pencil_.is_searched_above();
   std::vector<Ritz> out;
   if (symmetric) {
     const SymmetricEigen found = symmetric_eigen(symmetric_part(H));
@@ -199,11 +209,11 @@ std::vector<Ritz> Basis::ritz() const {
   double largest = 0.0;
   for (const Ritz& pair : out) largest = std::max(largest, std::abs(pair.theta));
   std::erase_if(out, [=](const Ritz& pair) {
-    const double size = symmetric ? pair.theta.real() : std::abs(pair.theta);
+    const double size = above ? pair.theta.real() : std::abs(pair.theta);
     return size <= SearchLimits::infinite * largest;
   });
-  std::sort(out.begin(), out.end(), [symmetric](const Ritz& a, const Ritz& b) {
-    return symmetric ? a.theta.real() > b.theta.real() : comes_before(a, b);
+  std::sort(out.begin(), out.end(), [above](const Ritz& a, const Ritz& b) {
+    return above ? a.theta.real() > b.theta.real() : comes_before(a, b);
   });
   return out;
 }
@@ -254,8 +264,8 @@ MatrixXd images_of(Pencil& pencil, const MatrixXd& forces, const MatrixXd& start
 /// @param width number of columns beside those nearby
 void search_at(Pencil& pencil, double shift, const EigenSearch& search, const MatrixXd& start, Index width,
                KrylovColumns& columns, Eigenpairs& out) {
-  const Index most = 3 * search.count + SearchLimits::blocks * std::max(width, SearchLimits::block) +
-                     (start.cols() - width);
+  const Index most =
+      3 * search.count + SearchLimits::blocks * std::max(width, SearchLimits::block) + (start.cols() - width);
   const double rest = pencil.is_symmetric() ? std::sqrt(search.tolerance) : search.tolerance;
   Basis basis(pencil, images_of(pencil, search.forces, start), search.tolerance, most, columns);
   // the first image of a vector does not tell whether the vector is an eigenvector
@@ -326,12 +336,13 @@ bool move_to_scale(Pencil& pencil, const Eigenpairs& found, Shift& shift) {
   const double size = -shift.at;
   double largest = size;
   for (const auto& value : found.values) largest = std::max(largest, std::abs(value));
+  const double zero = pencil.is_symmetric() ? SearchLimits::zero * largest : SearchLimits::unrefined * size;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& value : found.values)
-    if (std::abs(value) > SearchLimits::zero * largest) least = std::min(least, std::abs(value));
+    if (std::abs(value) > zero) least = std::min(least, std::abs(value));
   const bool is_known = std::isfinite(least);
   if (is_known && size <= SearchLimits::far * least) return false;
-  if (size <= 0.0) return false;
+  if (size <= 0.0 || !(is_known || pencil.is_symmetric())) return false;
   shift.at = is_known ? -SearchLimits::near * least : SearchLimits::scales * shift.at;
   factorise_below(pencil, shift);
   return true;
@@ -350,8 +361,7 @@ Eigenpairs lowest_eigenpairs(Pencil& pencil, Shift& shift, const EigenSearch& se
                              KrylovColumns& columns) {
   Eigenpairs out;
   const bool symmetric = pencil.is_symmetric();
-  Index width =
-      search.forces.cols() > 0 ? 0 : SearchLimits::block - search.near.cols() % SearchLimits::block;
+  Index width = search.forces.cols() > 0 ? 0 : SearchLimits::block - search.near.cols() % SearchLimits::block;
   MatrixXd start = start_of(search.near, pencil.size(), width, 0U);
   bool is_scaled = false;
   for (unsigned seed = 1; seed <= SearchLimits::tries; ++seed) {
@@ -371,7 +381,7 @@ Eigenpairs lowest_eigenpairs(Pencil& pencil, Shift& shift, const EigenSearch& se
       else
         move_nearer(pencil, out, shift);
     }
-    width = std::max<Index>(SearchLimits::block, others);
+    if (search.forces.cols() == 0) width = std::max<Index>(SearchLimits::block, others);
     start = start_of(out.vectors, pencil.size(), width, seed);
   }
   return out;

@@ -30,6 +30,8 @@ class Pencil {
   [[nodiscard]] virtual Eigen::MatrixXd works(const Eigen::MatrixXd& x) = 0;
   [[nodiscard]] virtual Eigen::Index size() const = 0;
   [[nodiscard]] virtual bool is_symmetric() const = 0;
+  /// Whether eigenvalues below the shift are left out; else those of an unsymmetric pencil are found too.
+  [[nodiscard]] virtual bool is_searched_above() const { return is_symmetric(); }
 };
 
 /// Lowest eigenvalues of a pencil above a shift.

@@ -130,8 +130,9 @@ std::optional<CriticalEvent> MasslessSearch::locate(PointSolver& solver, const P
   event.point = root.root;
   event.bracket_loads[0] = root.before.lambda;
   event.bracket_loads[1] = root.after.lambda;
-  // the motion whose frequency becomes infinite, by inverse iteration
-  static_cast<void>(determinant(event.point));
+  // the motion whose frequency becomes infinite, by inverse iteration beside the root, where nothing is
+  // singular
+  static_cast<void>(determinant(root.before));
   MatrixXd motion = pseudo_random(structure_.size, 1U);
   for (int i = 0; i < MasslessLimits::iterations; ++i) {
     motion = structure_.metric.cwiseProduct(motion.col(0));

@@ -38,7 +38,9 @@ class Vibrations final : public Pencil {
   [[nodiscard]] MatrixXd weighted(const MatrixXd& x) override {
     return mass_products(structure_, masses_, x);
   }
-  [[nodiscard]] MatrixXd apply(const MatrixXd&, const MatrixXd& weighted) override { return response(weighted); }
+  [[nodiscard]] MatrixXd apply(const MatrixXd&, const MatrixXd& weighted) override {
+    return response(weighted);
+  }
   [[nodiscard]] MatrixXd response(MatrixXd forces) override {
     problem_.to_rows(forces);
     problem_.solve(forces);
@@ -88,7 +90,8 @@ NaturalMotions natural_motions(const Structure& structure, StructuralProblem& pr
   factorise_below(pencil, shift);
   Eigenpairs found = lowest_eigenpairs(pencil, shift, search, columns);
   // motions whose square is far smaller than the others' are all that is left of a column after a solution
-  for (int i = 0; i < MotionLimits::depths && static_cast<int>(found.values.size()) < search.count; ++i) {
+  const int depths = pencil.is_symmetric() ? MotionLimits::depths : 0;
+  for (int i = 0; i < depths && static_cast<int>(found.values.size()) < search.count; ++i) {
     shift.at *= MotionLimits::deeper;
     factorise_below(pencil, shift);
     found = lowest_eigenpairs(pencil, shift, search, columns);

@@ -101,8 +101,8 @@ std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rul
   std::optional<BoundedEnd> first;
   for (const Crossing& crossing : crossings) {
     const bool is_load = crossing.end == TraceEnd::load_factor || crossing.end == TraceEnd::capacity;
-    BoundedEnd end = is_load ? end_at_load(solver, crossing, from, to, kink)
-                             : end_at(solver, crossing, from, to, kink);
+    BoundedEnd end =
+        is_load ? end_at_load(solver, crossing, from, to, kink) : end_at(solver, crossing, from, to, kink);
     if (first && end.found && first->point.arc_length <= end.point.arc_length) continue;
     first = std::move(end);
     if (!first->found) break;

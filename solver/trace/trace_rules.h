@@ -61,11 +61,11 @@ struct TraceRules {
   std::optional<BoundedQuantity> monitor;
   std::optional<Quantity> controlled;  ///< ends the path where it turns back (displacement control)
   int steps = 1000;
-  AskedStates asked;       ///< a step over one of these loads is taken only where its state is found
+  AskedStates asked;            ///< a step over one of these loads is taken only where its state is found
   bool grows_at_start = false;  ///< vibrations about the first point grow and oscillate (flutter)
-  ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for
-  double gradient = 4.0;   ///< norm of the displacement (rms gradient) at which a path is given up
-  double travel = 1000.0;  ///< that bound for the sum of all steps' displacements: members that wind up
+  ZoneCounter zones;            ///< empty: contact that begins or ends is not looked for
+  double gradient = 4.0;        ///< norm of the displacement (rms gradient) at which a path is given up
+  double travel = 1000.0;       ///< that bound for the sum of all steps' displacements: members that wind up
   /// Whether the beam theory no longer holds at a point, where a path is given up as well; empty: it holds.
   std::function<bool(const PathPoint&)> beyond_theory;
   /// A point with more negative eigenvalues ends the path, as a rule the critical point that leads there;

@@ -14,8 +14,8 @@
 namespace snapthrough::testing {
 namespace {
 
-/// The search stops where the residual of least squares is rounding, about 1e-8 of all capacities, of which the
-/// least load here calls up a twentieth; the motion is then exact to the square root, the limit to 2e-6.
+/// The search stops where the residual of least squares is rounding, about 1e-8 of all capacities, of which
+/// the least load here calls up a twentieth; the motion is then exact to the square root, the limit to 2e-6.
 constexpr double kNear = 2e-6;
 
 ReactionLaw law_with(ReactionLaw::Type type, double stiffness, double capacity) {
