@@ -125,7 +125,8 @@ class Basis {
 /// @param weighted W times the columns
 /// @param removed squared norms of the parts that were taken from the columns before
 /// @param dependent part of a column's norm that is rounding
-/// @return least norm that was left of a column, over its norm before, among the columns that are kept
+/// @return least norm that was left of a column, over its norm before, among the columns that are kept; or
+/// the least norm of a column beside that of another one of the same length
 double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& removed, double dependent) {
   Index kept = 0;
   double least = 1.0;
@@ -138,13 +139,14 @@ double orthonormalise(MatrixXd& columns, MatrixXd& weighted, const VectorXd& rem
     VectorXd mv = weighted.col(j);
     const double own = v.dot(mv);
     const double size = own + removed[j];
-    if (!(own > SearchLimits::dependent * SearchLimits::dependent * unit * v.squaredNorm())) continue;
+    const double share = own / (unit * v.squaredNorm());
+    if (!(share > SearchLimits::infinite)) continue;
     const VectorXd along = weighted.leftCols(kept).transpose() * v;
     v.noalias() -= columns.leftCols(kept) * along;
     mv.noalias() -= weighted.leftCols(kept) * along;
     const double rest = v.dot(mv);
     if (!(rest > dependent * dependent * size)) continue;
-    least = std::min(least, std::sqrt(rest / size));
+    least = std::min({least, std::sqrt(rest / size), std::sqrt(share)});
     columns.col(kept) = v / std::sqrt(rest);
     weighted.col(kept) = mv / std::sqrt(rest);
     ++kept;
