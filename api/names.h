@@ -29,12 +29,13 @@ inline constexpr Named<AnalysisType> kAnalysisTypes[] = {{"buckling", AnalysisTy
                                                          {"static", AnalysisType::static_},
                                                          {"vibration", AnalysisType::vibration}};
 inline constexpr Named<CriticalType> kCriticalTypes[] = {
-    {"bifurcation", CriticalType::bifurcation}, {"limit_max", CriticalType::limit_max},
-    {"limit_min", CriticalType::limit_min},     {"broken_bifurcation", CriticalType::broken_bifurcation},
-    {"flutter", CriticalType::flutter},         {"capacity", CriticalType::capacity}};
+    {"bifurcation", CriticalType::bifurcation},
+    {"limit_max", CriticalType::limit_max},
+    {"limit_min", CriticalType::limit_min},
+    {"broken_bifurcation", CriticalType::broken_bifurcation},
+    {"flutter", CriticalType::flutter}};
 inline constexpr Named<CriticalCause> kCriticalCauses[] = {{"smooth", CriticalCause::smooth},
-                                                           {"contact", CriticalCause::contact},
-                                                           {"massless", CriticalCause::massless}};
+                                                           {"contact", CriticalCause::contact}};
 
 inline constexpr Named<NoDerivative> kNoDerivatives[] = {
     {"breaks_bifurcation", NoDerivative::breaks_bifurcation},

@@ -97,8 +97,7 @@ inline constexpr auto kFields<CriticalPoint> =
                field("member", &CriticalPoint::member),
                field("mode", &CriticalPoint::mode),
                field<kIfAny>("sensitivities", &CriticalPoint::sensitivities),
-               field<kIfAny>("koiter", &CriticalPoint::koiter),
-               internal(&CriticalPoint::after_growth)};
+               field<kIfAny>("koiter", &CriticalPoint::koiter)};
 
 template <>
 inline constexpr auto kFields<NodeMotion> =
@@ -109,11 +108,6 @@ template <>
 inline constexpr auto kFields<NeutralMotion> =
     std::tuple{field("branch", &NeutralMotion::branch), field("from", &NeutralMotion::from),
                field("to", &NeutralMotion::to), field("nodes", &NeutralMotion::nodes)};
-
-template <>
-inline constexpr auto kFields<CapacityLimit> =
-    std::tuple{field("load_factor", &CapacityLimit::load_factor), field("supports", &CapacityLimit::supports),
-               field("nodes", &CapacityLimit::nodes)};
 
 template <>
 inline constexpr auto kFields<ContactEvent> = std::tuple{
@@ -310,7 +304,6 @@ inline constexpr auto kFields<Result> = std::tuple{
     field("summary", &Result::summary),
     field("critical_points", &Result::critical_points),
     field("neutral_motion", &Result::neutral_motion),
-    field<kIfAny>("capacity", &Result::capacity),
     field("contact_events", &Result::contact_events),
     field("branches", &Result::branches),
     field("states", &Result::states),
@@ -335,10 +328,10 @@ inline constexpr bool kAllHaveEveryMember = (has_every_member<Types>() && ...);
 static_assert(
     kAllHaveEveryMember<MemberMode, EffectiveLength, Mode, Softest, AtCritical, Summary, MeshAnswer,
                         Sensitivity, KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion,
-                        CapacityLimit, ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState,
-                        SupportState, SpringState, FoundationState, State, StaticTable, BucklingResult,
-                        Extreme, ExtremeRange, MemberExtremes, Warning, MeshReport, Diagnostics,
-                        MemberOffsets, WorstOffset, Failure, Result>,
+                        ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState, SupportState,
+                        SpringState, FoundationState, State, StaticTable, BucklingResult, Extreme,
+                        ExtremeRange, MemberExtremes, Warning, MeshReport, Diagnostics, MemberOffsets,
+                        WorstOffset, Failure, Result>,
     "A member of solver/result.h has no line in its table: add field(...), or internal(...) where documents "
     "do not have it.");
 

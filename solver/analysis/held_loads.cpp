@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "solver/analysis/capacity_rule.h"
 #include "solver/numeric/number_text.h"
-#include "solver/report/capacity.h"
 #include "solver/report/escape_text.h"
 #include "solver/report/result_parts.h"
 
@@ -62,31 +60,6 @@ HeldLoads held_loads(const Model& model, const Analysis& analysis, const Unilate
   }
   if (!escape) return out;
   return {sentence(loads, model, balance, *escape), false, {}};
-}
-
-void refuse_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
-                            HeldLoads& held, Result& result) {
-  if (!held.any || analysis.start) return;
-  if (ends.constant) {
-    result.capacity.push_back(capacity_limit(model, ends, *ends.constant, 0.0));
-    held.refusal = "supports carry no more than " + rounded(ends.constant->factor) +
-                   " of the constant actions: " + capacity_text(model, ends, *ends.constant);
-    held.code = "capacity";
-    held.any = false;
-    return;
-  }
-  if (!has_rows(analysis.type) || analysis.geometry != Geometry::linear) return;
-  std::vector<double> exceeding;
-  for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
-    if (held.factors[i] == 0 || !ends.is_beyond(analysis.load_factors[i])) continue;
-    held.factors[i] = 0;
-    exceeding.push_back(analysis.load_factors[i]);
-  }
-  if (exceeding.empty()) return;
-  const std::string text = report_exceeded(model, ends, exceeding, result);
-  held.any = std::ranges::any_of(held.factors, [](char one) { return one != 0; });
-  if (!held.refusal) held.code = "capacity";
-  held.refusal = held.refusal ? *held.refusal + "; " + text : text;
 }
 
 std::optional<std::string> start_refusal(const Model& model, const UnilateralBalance& balance) {

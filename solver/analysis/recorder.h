@@ -3,7 +3,6 @@
 /// Writes points and events of traced paths into the result: branches, critical points and states.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "solver/analysis/frequency_probe.h"
@@ -13,9 +12,7 @@
 #include "solver/hooks.h"
 #include "solver/report/contact.h"
 #include "solver/report/neutral_motion.h"
-#include "solver/report/state.h"
 #include "solver/trace/path_observer.h"
-#include "solver/trace/trace_rules.h"
 
 namespace snapthrough {
 
@@ -49,13 +46,10 @@ class Recorder final : public PathObserver {
   void on_contact(const ContactChange& change) override;
   void on_touching(const PathPoint& point) override;
   void on_unpinned(const PathPoint& point) override;
-  void on_asked(std::size_t row, const PathPoint& state) override;
   void on_step(const PathPoint& from, const PathPoint& to) override;
 
   /// Counts what on_contact() reports; empty when no support is one-sided.
   [[nodiscard]] ZoneCounter zone_counter() const;
-  /// Sets what the recorder wants to be told of: states at load factors, and changes of contact.
-  void ask(TraceRules& rules) const;
   /// Completes the last branch and sets its termination code.
   void end_branch(const char* code);
   /// Records a point that trace() does not report.
@@ -67,10 +61,8 @@ class Recorder final : public PathObserver {
   void add_row(const PathPoint& point);
   void spread_points();
   void add_critical(const CriticalEvent& event);
-  /// Adds a state to the result.
-  /// @param most imbalance() of an equilibrium
-  /// @return its index; empty for a state that is no equilibrium
-  std::optional<int> add_state(const PathPoint& point, double most = StateLimits::imbalance);
+  void add_states_at_loads(const PathPoint& from, const PathPoint& to);
+  int add_state(const PathPoint& point);
   [[nodiscard]] std::vector<NamedValue> monitors(const PathPoint& point) const;
   [[nodiscard]] double user_load(const PathPoint& point) const;
 
@@ -85,7 +77,6 @@ class Recorder final : public PathObserver {
   NeutralMotionLog neutral_;
   std::optional<FrequencyProbe> probe_;  ///< empty: no frequencies are requested
   Observer observer_;
-  std::string refused_;        ///< sentences on states that are no equilibrium
   std::vector<char> reached_;  ///< requested load factors whose states were recorded
   PathPoints kept_;            ///< current branch, when `output.path_points` is requested
   int points_ = 0;
@@ -93,6 +84,7 @@ class Recorder final : public PathObserver {
   int branch_points_ = 0;  ///< reported on the current branch
   /// Arc length at which stability was lost; the stiffness ratio is zero there by definition.
   std::optional<double> lost_;
+  bool at_branch_start_ = true;  ///< no step of the current branch has been accepted
 };
 
 }  // namespace snapthrough

@@ -1,12 +1,10 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "solver/analysis/analyses.h"
-#include "solver/analysis/vibration_rule.h"
 #include "solver/discrete/given_state.h"
 #include "solver/hooks.h"
 #include "solver/numeric/number_text.h"
@@ -75,20 +73,6 @@ PathPoint fully_loaded(PointSolver& solver, const PathPoint& end) {
   return moved > 0.0 && solver.correct_at_load(moved, full) ? full : end;
 }
 
-/// Hands what is known of stability on the constant actions' path to the start of the next path: the number
-/// of real eigenvalues below zero, of which a tangent that is not symmetric tells the parity alone, and
-/// flutter.
-void hand_on_stability(const Model& model, const Structure& structure, StructuralProblem& problem,
-                       const TraceOutcome& outcome, PathStart& start) {
-  PathPoint& point = *start.point;
-  point.negative = count_next_to(outcome.last.negative, {point.negative, 0.0, true});
-  const bool is_linear = !structure.one_sided || !has_any(problem.marks_at(point.y));
-  if (!has_mass(model) || !is_linear || !FlutterSearch(structure, model).flutters_at(point)) return;
-  start.grows_from = 1.0;
-  for (const CriticalEvent& event : outcome.critical)
-    if (event.type == CriticalType::flutter) start.grows_from = event.point.lambda;
-}
-
 }  // namespace
 
 PathStart start_at_state(const Model& model, const Structure& structure, PointSolver& solver,
@@ -139,9 +123,6 @@ PathStart start_of_path(const Model& model, const Structure& structure, Structur
   rules.limit_points = 1;
   UnloadedPoint unloaded(on_unloaded);
   const PathStart first = find_start(loading.solver(), 1.0, StartLimits::first_load);
-  std::optional<FlutterSearch> flutter;
-  rules.vibrations = vibration_rule(model, structure, loading.solver(), rules.locate.tolerance, flutter,
-                                    StructuralProblem::Stage::constant);
   const TraceOutcome outcome = trace(loading, first.point, rules, {}, {&unloaded}, hooks.stop);
   problem.set_stage(StructuralProblem::Stage::proportional);
   add_statistics(loading.statistics(), result);
@@ -172,7 +153,6 @@ PathStart start_of_path(const Model& model, const Structure& structure, Structur
   PathStart start =
       start_at_equilibrium(solver, fully_loaded(solver, outcome.last).y, direction, outcome.last.holds);
   if (!start) fail_to_start(model, structure, start, result);
-  if (start && structure.unsymmetric()) hand_on_stability(model, structure, problem, outcome, start);
   return start;
 }
 

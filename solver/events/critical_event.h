@@ -16,10 +16,9 @@ struct CriticalEvent {
   CriticalType type = CriticalType::bifurcation;
   CriticalCause cause = CriticalCause::smooth;
   PathPoint point;
-  int negative_before = 0;    ///< negative eigenvalues on the side that the path comes from
-  int negative_after = 0;     ///< negative eigenvalues beyond
-  int multiplicity = 1;       ///< eigenvalues that vanish at the point
-  bool after_growth = false;  ///< vibrations grow from an earlier point of the path on
+  int negative_before = 0;  ///< negative eigenvalues on the side that the path comes from
+  int negative_after = 0;   ///< negative eigenvalues beyond
+  int multiplicity = 1;     ///< eigenvalues that vanish at the point
   /// Null vectors, columns: the motion that loses its stiffness at the point, where it is known, then motions
   /// that lose it close by.
   Eigen::MatrixXd null;
@@ -30,16 +29,10 @@ struct CriticalEvent {
   double bracket_loads[2] = {};  ///< scaled load factors at the ends of the final bracket
 };
 
-/// @brief Whether vibrations begin to grow at a point, where the inertia of the tangent tells nothing.
-template <class Critical>
-[[nodiscard]] bool grows_from(const Critical& point) {
-  return point.type == CriticalType::flutter || point.cause == CriticalCause::massless;
-}
-
 /// @brief Whether a stable path loses stability at a point that it meets.
 [[nodiscard]] inline bool is_loss(const CriticalEvent& event) {
-  return event.type != CriticalType::broken_bifurcation && !event.after_growth &&
-         event.negative_before == 0 && (event.negative_after > 0 || grows_from(event));
+  return event.type != CriticalType::broken_bifurcation && event.negative_before == 0 &&
+         (event.negative_after > 0 || event.type == CriticalType::flutter);
 }
 
 /// How exactly critical points are located.

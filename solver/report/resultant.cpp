@@ -43,11 +43,6 @@ Wrench RigidMotions::work(const Eigen::VectorXd& forces) const {
   return {forces.dot(x_), forces.dot(y_), forces.dot(rotation_)};
 }
 
-Wrench RigidMotions::work_without_sign(const Eigen::VectorXd& forces) const {
-  const Eigen::VectorXd sizes = forces.cwiseAbs();
-  return {sizes.dot(x_), sizes.dot(y_), sizes.dot(rotation_.cwiseAbs())};
-}
-
 Wrench RigidMotions::work(const SparseRow& row) const {
   return {row.dot(x_), row.dot(y_), row.dot(rotation_)};
 }

@@ -28,8 +28,6 @@ class RigidMotions {
 
   /// Work of forces given in the rows of the problem (right-hand side).
   [[nodiscard]] Wrench work(const Eigen::VectorXd& forces) const;
-  /// Likewise, with the magnitudes of all terms added.
-  [[nodiscard]] Wrench work_without_sign(const Eigen::VectorXd& forces) const;
   /// Resultant of a unit force along a functional.
   [[nodiscard]] Wrench work(const SparseRow& row) const;
   /// @param support its stiffness is ignored

@@ -3,7 +3,6 @@
 /// What ends a path.
 
 #include <array>
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -27,45 +26,17 @@ struct BoundedQuantity {
   std::array<double, 2> range{};
 };
 
-/// Limit loads of supports with a capacity, as small displacements have them (CapacityEnds).
-struct CapacityRule {
-  std::array<double, 2> limits{};  ///< least and largest load factor that the supports hold; infinite: any
-  /// Range of the load factor that ends the path: the rest up to a limit takes displacements that grow
-  /// without bound.
-  std::array<double, 2> range{};
-  /// Whether the motion that loses its stiffness at a critical point moves each member as a whole.
-  std::function<bool(const CriticalEvent&)> moves_rigidly;
-
-  /// Whether a path that cannot go on at a load factor has met the capacity of its supports.
-  [[nodiscard]] bool is_near(double lambda) const;
-};
-
-/// A load factor at which the state of a path is wanted.
-struct AskedLoad {
-  std::size_t row = 0;  ///< number of the caller for the state
-  double load = 0.0;    ///< scaled load factor
-};
-
-/// Load factors at which the states of a path are wanted.
-struct AskedStates {
-  std::vector<AskedLoad> loads;
-  bool once = false;  ///< the first state at each load alone; else each one that the path passes
-};
-
 /// Stop rules in the path's own units (scaled load factors, scaled unknowns); empty rules do not stop.
 struct TraceRules {
   bool first_loss_of_stability = false;
   std::optional<int> limit_points;            ///< number of limit points, the last of which ends the path
   std::optional<std::array<double, 2>> load;  ///< range of the load factor
-  std::optional<CapacityRule> capacity;       ///< empty: supports hold any load
   std::optional<BoundedQuantity> monitor;
   std::optional<Quantity> controlled;  ///< ends the path where it turns back (displacement control)
   int steps = 1000;
-  AskedStates asked;            ///< a step over one of these loads is taken only where its state is found
-  bool grows_at_start = false;  ///< vibrations about the first point grow and oscillate (flutter)
-  ZoneCounter zones;            ///< empty: contact that begins or ends is not looked for
-  double gradient = 4.0;        ///< norm of the displacement (rms gradient) at which a path is given up
-  double travel = 1000.0;       ///< that bound for the sum of all steps' displacements: members that wind up
+  ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for
+  double gradient = 4.0;   ///< norm of the displacement (rms gradient) at which a path is given up
+  double travel = 1000.0;  ///< that bound for the sum of all steps' displacements: members that wind up
   /// Whether the beam theory no longer holds at a point, where a path is given up as well; empty: it holds.
   std::function<bool(const PathPoint&)> beyond_theory;
   /// A point with more negative eigenvalues ends the path, as a rule the critical point that leads there;
@@ -101,7 +72,6 @@ enum class TraceEnd {
   negative_eigenvalues,
   displacement_bound,
   load_bound,
-  capacity,
   cancelled,
   step_underflow,
   no_start
