@@ -18,9 +18,9 @@ struct RowTolerance {
 FrequencyProbe::FrequencyProbe(const Structure& structure, const Model& model, const Analysis& analysis)
     : structure_(structure), problem_(structure), masses_(make_mass_matrix(structure, model)) {
   const Discretization& mesh = analysis.discretization;
-  is_asked_alone_ = analysis.type == AnalysisType::vibration;
-  search_.count = is_asked_alone_ ? analysis.modes : analysis.output.frequencies;
-  if (is_asked_alone_) return;
+  search_.counted = analysis.type == AnalysisType::vibration;
+  search_.count = search_.counted ? analysis.modes : analysis.output.frequencies;
+  if (search_.counted) return;
   search_.tolerance = mesh.fixed_mesh
                           ? RowTolerance::on_given_mesh
                           : std::min(RowTolerance::most, RowTolerance::over_accuracy * mesh.accuracy);
@@ -30,7 +30,7 @@ std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, doubl
   if (structure_.one_sided && has_any(problem_.marks_at(y))) return std::nullopt;
   NaturalMotions found = natural_motions(structure_, problem_, masses_, y, lambda, search_, columns_);
   search_.begin_with(found);
-  if (!is_asked_alone_ && !(found.converged && found.complete)) return std::nullopt;
+  if (!search_.counted && !found.converged) return std::nullopt;
   return found;
 }
 

@@ -125,10 +125,6 @@ void warn_of_changed_contact(const Structure& structure, const Model& laws, Stru
                               changes + "; a path or a search for the critical load follows it"});
 }
 
-/// Sentence on buckling loads that an inertia count does not confirm.
-constexpr const char* kIncomplete =
-    "an inertia count does not confirm that the lowest buckling loads were all found";
-
 /// Reports the largest error of the buckling loads; fails when a load is not confirmed within the accuracy.
 void report_errors(const Analysis& analysis, Result& result) {
   const BucklingResult& buckling = *result.buckling;
@@ -272,10 +268,6 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
       structure.one_sided ? shares_of(structure, laws, problem, buckling.contact) : ContactShares{};
   result.summary.message += contact_text(shares, joined.has_value());
   report_errors(analysis, result);
-  if (!buckling.complete && buckling.negative_at_start == 0) {
-    withdraw_critical_load(result);
-    fail(result, "no_convergence", kIncomplete);
-  }
   warn_of_changed_contact(structure, laws, problem, buckling, result);
 }
 
@@ -295,8 +287,6 @@ ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std
   if (buckling.held_share)
     throw std::runtime_error("an imperfection names a buckling mode: " +
                              unheld_reference(*buckling.held_share));
-  if (!buckling.complete)
-    throw std::runtime_error(std::string("an imperfection names a buckling mode: ") + kIncomplete);
   if (static_cast<int>(buckling.loads.size()) < highest)
     throw std::runtime_error("an imperfection names buckling mode " + std::to_string(highest) +
                              ", but only " + std::to_string(buckling.loads.size()) + " exist");

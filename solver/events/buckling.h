@@ -29,9 +29,6 @@ struct LinearBuckling {
   /// Largest share of the reference load with an equilibrium of small displacements, to three digits; empty:
   /// the reference load has one. Otherwise `loads` is empty.
   std::optional<double> held_share;
-  /// Inertia counts confirm that `loads` are the lowest and, where they are fewer than asked for, all below
-  /// the largest load factor that the digits of the tangent resolve.
-  bool complete = true;
   int factorizations = 0;
   bool touches = false;   ///< some one-sided supports touch without pressure under the reference load
   LeastPiece piece;       ///< stability result of the touching supports
@@ -42,11 +39,12 @@ struct LinearBuckling {
 
 /// @brief The lowest `count` buckling loads of a structure.
 ///
-/// lowest_eigenpairs() of the pencil from a load factor below the first one, which inertia counts find.
-/// One-sided supports are bilateral where they are pressed at the linear equilibrium under `reference`, and
-/// absent elsewhere. Supports that touch without pressure act in the combination that becomes unstable first
-/// (set_least_piece()): the first load is the critical one, the others belong to that combination. If nothing
-/// else restrains the structure, touching supports are bilateral.
+/// Inertia counts isolate each eigenvalue or cluster, so that none is missed; block inverse iteration with
+/// Rayleigh-Ritz gives loads and modes. One-sided supports are bilateral where they are pressed at the linear
+/// equilibrium under `reference`, and absent elsewhere. Supports that touch without pressure act in the
+/// combination that becomes unstable first (set_least_piece()): the first load is the critical one, the
+/// others belong to that combination. If nothing else restrains the structure, touching supports are
+/// bilateral.
 /// @param structure with nonlinear geometry
 /// @param reference scaled load factor of the reference load
 /// @param near first mode on a coarser mesh, for supports that touch without pressure; empty: unknown

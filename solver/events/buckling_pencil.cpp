@@ -1,17 +1,14 @@
 #include "solver/events/buckling_pencil.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
 
 namespace snapthrough {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -134,64 +131,12 @@ VectorXd BucklingPencil::stress(double lambda) const {
   return y;
 }
 
-int BucklingPencil::factorise(double lambda) {
+int BucklingPencil::count(double lambda) {
   VectorXd residual;
   ++factorizations_;
-  factorised_ = lambda;
   return problem_.linearise(stress(lambda), sense_ * lambda, residual, regime_at(lambda)).negative;
 }
 
-void BucklingPencil::to_global(MatrixXd& rows) const {
-  for (int j = 0; j < structure_.nodes; ++j) {
-    const double angle = structure_.supports[j].angle;
-    if (angle == 0.0) continue;
-    const Eigen::Rotation2Dd turn(angle);
-    rows.middleRows(3 * j, 2) = turn.toRotationMatrix() * rows.middleRows(3 * j, 2);
-  }
-}
-
-MatrixXd BucklingPencil::weighted(const MatrixXd& x) {
-  MatrixXd out = is_stable_at_start_ ? products(0.0, x)
-                                     : problem_.tangent_products(VectorXd::Zero(x.rows()), 0.0, x, regime());
-  to_global(out);
-  return out;
-}
-
-MatrixXd BucklingPencil::apply(const MatrixXd& x, const MatrixXd& weighted) {
-  MatrixXd forces = products(factorised_, x);
-  to_global(forces);
-  if (is_stable_at_start_) {
-    forces = (weighted - forces) / factorised_;
-  } else {
-    MatrixXd at_start = products(0.0, x);
-    to_global(at_start);
-    forces = (at_start - forces) / factorised_;
-  }
-  return response(std::move(forces));
-}
-
-MatrixXd BucklingPencil::response(MatrixXd forces) {
-  problem_.to_rows(forces);
-  problem_.solve(forces);
-  return forces;
-}
-
-MatrixXd BucklingPencil::works(const MatrixXd& x) {
-  MatrixXd forces = products(0.0, x);
-  to_global(forces);
-  return x.transpose() * forces;
-}
-
-MatrixXd BucklingPencil::geometric(const MatrixXd& x) {
-  MatrixXd out = products(1.0, x) - products(0.0, x);
-  to_global(out);
-  return out;
-}
-
-double BucklingPencil::quotient(const VectorXd& x) {
-  const VectorXd elastic = products(0.0, x);
-  const VectorXd geometric = products(1.0, x) - elastic;
-  return -problem_.work(elastic, x) / problem_.work(geometric, x);
-}
+VectorXd BucklingPencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
 
 }  // namespace snapthrough
