@@ -2,7 +2,8 @@
 Blevins, Formulas for natural frequency and mode shape, table 8-1). The axis keeps its length, and rotary inertia is zero."""
 import math
 
-# (f, c): f(x) has no exponentials and vanishes at x = k L, once between c pi + (n - 1) pi and c pi + n pi
+# Each pair (f, c) is a characteristic function, divided by its growing exponentials, and the start of its root intervals: the n-th
+# root x of f, the wave number of mode n times the member length, is the only one from (c + n - 1) pi to (c + n) pi.
 PROPPED = (lambda x: math.sin(x) - x * math.cos(x), 1.0)  # tan x = x
 VIBRATION = {"clamped": (lambda x: math.cos(x) - 1 / math.cosh(x), 1.0), "cantilever": (lambda x: math.cos(x) + 1 / math.cosh(x), 0.0),
              "propped": (lambda x: math.sin(x) - math.cos(x) * math.tanh(x), 0.5)}
