@@ -29,13 +29,12 @@ inline constexpr Named<AnalysisType> kAnalysisTypes[] = {{"buckling", AnalysisTy
                                                          {"static", AnalysisType::static_},
                                                          {"vibration", AnalysisType::vibration}};
 inline constexpr Named<CriticalType> kCriticalTypes[] = {
-    {"bifurcation", CriticalType::bifurcation},
-    {"limit_max", CriticalType::limit_max},
-    {"limit_min", CriticalType::limit_min},
-    {"broken_bifurcation", CriticalType::broken_bifurcation},
-    {"flutter", CriticalType::flutter}};
+    {"bifurcation", CriticalType::bifurcation}, {"limit_max", CriticalType::limit_max},
+    {"limit_min", CriticalType::limit_min},     {"broken_bifurcation", CriticalType::broken_bifurcation},
+    {"flutter", CriticalType::flutter},         {"capacity", CriticalType::capacity}};
 inline constexpr Named<CriticalCause> kCriticalCauses[] = {{"smooth", CriticalCause::smooth},
-                                                           {"contact", CriticalCause::contact}};
+                                                           {"contact", CriticalCause::contact},
+                                                           {"massless", CriticalCause::massless}};
 
 inline constexpr Named<NoDerivative> kNoDerivatives[] = {
     {"breaks_bifurcation", NoDerivative::breaks_bifurcation},

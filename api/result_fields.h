@@ -97,7 +97,8 @@ inline constexpr auto kFields<CriticalPoint> =
                field("member", &CriticalPoint::member),
                field("mode", &CriticalPoint::mode),
                field<kIfAny>("sensitivities", &CriticalPoint::sensitivities),
-               field<kIfAny>("koiter", &CriticalPoint::koiter)};
+               field<kIfAny>("koiter", &CriticalPoint::koiter),
+               internal(&CriticalPoint::after_growth)};
 
 template <>
 inline constexpr auto kFields<NodeMotion> =
@@ -108,6 +109,11 @@ template <>
 inline constexpr auto kFields<NeutralMotion> =
     std::tuple{field("branch", &NeutralMotion::branch), field("from", &NeutralMotion::from),
                field("to", &NeutralMotion::to), field("nodes", &NeutralMotion::nodes)};
+
+template <>
+inline constexpr auto kFields<CapacityLimit> =
+    std::tuple{field("load_factor", &CapacityLimit::load_factor), field("supports", &CapacityLimit::supports),
+               field("nodes", &CapacityLimit::nodes)};
 
 template <>
 inline constexpr auto kFields<ContactEvent> = std::tuple{
@@ -181,11 +187,15 @@ inline constexpr auto kFields<FoundationState> = std::tuple{
     field("contact", &FoundationState::contact),   field("resultant", &FoundationState::resultant)};
 
 template <>
-inline constexpr auto kFields<State> =
-    std::tuple{field("branch", &State::branch),           field("load_factor", &State::load_factor),
-               field("refinements", &State::refinements), field("members", &State::members),
-               field("supports", &State::supports),       field("springs", &State::springs),
-               field("foundations", &State::foundations), field("loads", &State::loads)};
+inline constexpr auto kFields<State> = std::tuple{field("branch", &State::branch),
+                                                  field("load_factor", &State::load_factor),
+                                                  field("refinements", &State::refinements),
+                                                  field<kIfAny>("error_estimate", &State::error_estimate),
+                                                  field("members", &State::members),
+                                                  field("supports", &State::supports),
+                                                  field("springs", &State::springs),
+                                                  field("foundations", &State::foundations),
+                                                  field("loads", &State::loads)};
 
 /// The lists have one value a load factor.
 template <>
@@ -304,6 +314,7 @@ inline constexpr auto kFields<Result> = std::tuple{
     field("summary", &Result::summary),
     field("critical_points", &Result::critical_points),
     field("neutral_motion", &Result::neutral_motion),
+    field<kIfAny>("capacity", &Result::capacity),
     field("contact_events", &Result::contact_events),
     field("branches", &Result::branches),
     field("states", &Result::states),
@@ -328,10 +339,10 @@ inline constexpr bool kAllHaveEveryMember = (has_every_member<Types>() && ...);
 static_assert(
     kAllHaveEveryMember<MemberMode, EffectiveLength, Mode, Softest, AtCritical, Summary, MeshAnswer,
                         Sensitivity, KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion,
-                        ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState, SupportState,
-                        SpringState, FoundationState, State, StaticTable, BucklingResult, Extreme,
-                        ExtremeRange, MemberExtremes, Warning, MeshReport, Diagnostics, MemberOffsets,
-                        WorstOffset, Failure, Result>,
+                        CapacityLimit, ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState,
+                        SupportState, SpringState, FoundationState, State, StaticTable, BucklingResult,
+                        Extreme, ExtremeRange, MemberExtremes, Warning, MeshReport, Diagnostics,
+                        MemberOffsets, WorstOffset, Failure, Result>,
     "A member of solver/result.h has no line in its table: add field(...), or internal(...) where documents "
     "do not have it.");
 

@@ -23,15 +23,16 @@ constexpr std::string_view kCritical = name_of(kAnalysisTypes, AnalysisType::cri
 constexpr std::string_view kPath = name_of(kAnalysisTypes, AnalysisType::path);
 constexpr std::string_view kStatic = name_of(kAnalysisTypes, AnalysisType::static_);
 constexpr std::string_view kBuckling = name_of(kAnalysisTypes, AnalysisType::buckling);
-constexpr std::array<PartOfAnalysis, 9> kParts{{{"critical_points", {kCritical, kPath}},
-                                                {"contact_events", {kCritical, kPath}},
-                                                {"neutral_motion", {kCritical, kPath, kStatic}},
-                                                {"branches", {kPath}},
-                                                {"states", {kCritical, kPath, kStatic}},
-                                                {"extremes", {kCritical, kPath, kStatic}},
-                                                {"not_reached", {kCritical, kPath, kStatic}},
-                                                {"static", {kStatic}},
-                                                {"buckling", {kBuckling}}}};
+constexpr std::array<PartOfAnalysis, 10> kParts{{{"critical_points", {kCritical, kPath}},
+                                                 {"contact_events", {kCritical, kPath}},
+                                                 {"neutral_motion", {kCritical, kPath, kStatic}},
+                                                 {"capacity", {kCritical, kPath, kStatic}},
+                                                 {"branches", {kPath}},
+                                                 {"states", {kCritical, kPath, kStatic}},
+                                                 {"extremes", {kCritical, kPath, kStatic}},
+                                                 {"not_reached", {kCritical, kPath, kStatic}},
+                                                 {"static", {kStatic}},
+                                                 {"buckling", {kBuckling}}}};
 
 bool is_within(std::string_view inner, std::string_view outer) {
   return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '/');

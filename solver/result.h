@@ -11,14 +11,17 @@
 namespace snapthrough {
 
 /// Type of a critical point. broken_bifurcation: missed by the path because of an imperfection. flutter: two
-/// natural frequencies meet under loads without a potential, and vibrations grow beyond.
-enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation, flutter };
+/// natural frequencies meet under loads without a potential, and vibrations grow beyond. capacity: supports
+/// whose laws have a capacity carry no more, see CapacityLimit.
+enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation, flutter, capacity };
 
 [[nodiscard]] constexpr bool is_limit(CriticalType type) {
   return type == CriticalType::limit_max || type == CriticalType::limit_min;
 }
-/// Cause of a change of stability: an eigenvalue crosses zero, or contact changes the stiffness abruptly.
-enum class CriticalCause { smooth, contact };
+/// Cause of a change of stability: an eigenvalue crosses zero; contact changes the stiffness abruptly; or the
+/// freedoms without mass lose their stability, so that the square of a natural frequency becomes infinite and
+/// returns from minus infinity.
+enum class CriticalCause { smooth, contact, massless };
 
 /// Named series with one value for each point of a branch or row of a table.
 struct NamedSeries {
@@ -98,6 +101,7 @@ struct CriticalPoint {
   /// Null vector of the tangent stiffness; at a limit point the path's direction. Only together with `state`.
   std::optional<Mode> mode = {};
   bool confirmed = false;               ///< a finer mesh has the point within the requested accuracy
+  bool after_growth = false;            ///< vibrations grow from an earlier point of the path on
   std::vector<MeshAnswer> meshes = {};  ///< loads on the compared meshes, coarsest first
   /// Imperfection of a bifurcation, about the root mean square slope of the imperfect shape; empty: unknown.
   std::optional<double> imperfection = {};
@@ -123,6 +127,14 @@ struct NeutralMotion {
   /// Load factor at which the motion meets resistance again; empty: free to the end of the path.
   std::optional<double> to;
   std::vector<NodeMotion> nodes;  ///< moving nodes; largest displacement 1, or largest rotation 1
+};
+
+/// Limit load of supports whose laws have a capacity: the motion that the loads drive there meets supports at
+/// their capacity only.
+struct CapacityLimit {
+  double load_factor = 0.0;           ///< no equilibrium is reported beyond this load factor
+  std::vector<std::string> supports;  ///< ids of the springs and foundations at their capacity
+  std::vector<NodeMotion> nodes;      ///< moving nodes; largest displacement 1, or largest rotation 1
 };
 
 /// Beginning or end of a contact zone of a foundation, or of contact of a one-sided spring; also division and
@@ -198,6 +210,9 @@ struct State {
   int branch = 0;
   double load_factor = 0.0;
   int refinements = 0;  ///< refinements from the path's mesh to the mesh of this state
+  /// Estimated relative error of a path's state at an asked load factor, see relative_error(); empty: not
+  /// estimated, or not confirmed.
+  std::optional<double> error_estimate;
   std::vector<MemberState> members;
   std::vector<SupportState> supports;
   std::vector<SpringState> springs;
@@ -334,6 +349,7 @@ struct Result {
   Summary summary;
   std::vector<CriticalPoint> critical_points;
   std::vector<NeutralMotion> neutral_motion;
+  std::vector<CapacityLimit> capacity = {};  ///< at most one for each sense of the load factor
   std::vector<ContactEvent> contact_events;
   std::vector<Branch> branches;
   std::vector<State> states;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/capacity_rule.h"
 #include "solver/analysis/held_loads.h"
 #include "solver/analysis/worst_offset.h"
 #include "solver/discrete/free_motions.h"
@@ -46,9 +47,15 @@ std::vector<double> asked_load_factors(const Analysis& analysis) {
 /// Reports static load factors that the supports do not hold, in addition to computed ones.
 void report_refused(const HeldLoads& held, Result& result) {
   if (!held.refusal) return;
-  if (!result.failure) return fail(result, "not_held", *held.refusal);
+  if (!result.failure) return fail(result, held.code, *held.refusal);
   result.failure->detail += "; " + *held.refusal;
   result.summary.message += "; " + *held.refusal;
+}
+
+/// Sets the failure of an analysis that computes nothing.
+void give_up(const Analysis& analysis, const char* code, const std::string& detail, Result& result) {
+  fail(result, code, detail);
+  result.not_reached = asked_load_factors(analysis);
 }
 
 /// @throws Cancelled when no result was reached
@@ -61,19 +68,16 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, c
   if (has_one_sided_supports(model)) {
     balance.emplace(motions.emplace(model));
     held = held_loads(model, analysis, *balance);
-    if (!held.any) {
-      fail(result, "not_held", *held.refusal);
-      result.not_reached = asked_load_factors(analysis);
-      return;
-    }
   }
+  // linearised buckling takes the tangent of its reference load, which it finds itself
+  const auto capacity = analysis.type == AnalysisType::buckling ? nullptr : capacity_ends(model);
+  if (capacity) refuse_beyond_capacity(model, analysis, *capacity, held, result);
+  if (!held.any) return give_up(analysis, held.code, *held.refusal, result);
   ModeOffsets modes;
   try {
     modes = mode_offsets(model, analysis, hooks.stop);
   } catch (const std::runtime_error& error) {
-    fail(result, "no_buckling_mode", error.what());
-    result.not_reached = asked_load_factors(analysis);
-    return;
+    return give_up(analysis, "no_buckling_mode", error.what(), result);
   }
   if (analysis.type == AnalysisType::buckling && run_exact_column(model, analysis, hooks, result)) {
     const std::vector<std::string> absent = without_stiffness(model);
@@ -91,15 +95,15 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, c
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:
-      run_path(model, analysis, structure, hooks, result, visit);
+      run_path(model, analysis, structure, capacity.get(), hooks, result, visit);
       report_stop(hooks, result);
       break;
     case AnalysisType::static_:
-      run_static(model, analysis, structure, held.factors, hooks, result);
+      run_static(model, analysis, structure, {held.factors, capacity.get()}, hooks, result);
       report_refused(held, result);
       break;
     case AnalysisType::vibration:
-      run_vibration(model, analysis, structure, held.factors, hooks, result);
+      run_vibration(model, analysis, structure, {held.factors, capacity.get()}, hooks, result);
       report_refused(held, result);
       break;
     case AnalysisType::buckling:

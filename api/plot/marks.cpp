@@ -16,6 +16,7 @@ constexpr Described kMarks[] = {{Mark::limit_max, "limit_max", "limit point"},
                                 {Mark::bifurcation, "bifurcation", "bifurcation"},
                                 {Mark::broken_bifurcation, "broken_bifurcation", "broken bifurcation"},
                                 {Mark::flutter, "flutter", "flutter"},
+                                {Mark::capacity, "capacity", "capacity of supports"},
                                 {Mark::softest, "softest", "softest point"},
                                 {Mark::closed, "closed", "contact made"},
                                 {Mark::opened, "opened", "contact lost"}};
@@ -81,6 +82,8 @@ Shape mark_shape(Mark mark, Pixel at) {
       return polygon("mark broken", at, {{0, -7}, {6, 0}, {0, 7}, {-6, 0}});
     case Mark::flutter:
       return polygon("mark flutter", at, {{-6, -6.5}, {6, -6.5}, {-6, 6.5}, {6, 6.5}});
+    case Mark::capacity:
+      return polygon("mark limit", at, {{-6, -5}, {6, -5}, {6, -1}, {-6, -1}});
     case Mark::softest:
       return polygon("mark softest", at, {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}});
     case Mark::closed:

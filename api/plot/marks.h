@@ -11,14 +11,25 @@
 
 namespace snapthrough::api::plot {
 
-enum class Mark { limit_max, limit_min, bifurcation, broken_bifurcation, flutter, softest, closed, opened };
+enum class Mark {
+  limit_max,
+  limit_min,
+  bifurcation,
+  broken_bifurcation,
+  flutter,
+  capacity,
+  softest,
+  closed,
+  opened
+};
 
 /// Returns the mark of a type of critical point or contact event; nullopt for an unknown name.
 [[nodiscard]] std::optional<Mark> mark_named(std::string_view name);
 /// Returns the name of a mark in legends.
 [[nodiscard]] const char* mark_text(Mark mark);
 /// Draws a mark. Triangle: limit point, maximum (up) or minimum (down); diamond: bifurcation, hollow when
-/// broken; hourglass: flutter; hollow square: softest point; dot: contact made; ring: contact lost.
+/// broken; hourglass: flutter; bar: capacity of supports; hollow square: softest point; dot: contact made;
+/// ring: contact lost.
 [[nodiscard]] Shape mark_shape(Mark mark, Pixel at);
 
 /// A legend entry: a text with a line sample or a mark.

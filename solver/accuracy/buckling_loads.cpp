@@ -50,7 +50,8 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
                           analysis.modes, sense, &now);
     factorizations += next.buckling.factorizations;
     out.factorizations = factorizations;
-    const bool same_count = next.buckling.loads.size() == now.buckling.loads.size();
+    const bool same_count = now.buckling.complete && next.buckling.complete &&
+                            next.buckling.loads.size() == now.buckling.loads.size();
     for (std::size_t i = 0; same_count && i < out.errors.size(); ++i)
       out.errors[i] = differences[i].add(now.buckling.loads[i], next.buckling.loads[i]);
     const bool enough = same_count && within(out.errors, analysis.discretization.accuracy);

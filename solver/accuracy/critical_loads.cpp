@@ -104,10 +104,11 @@ void CriticalLoads::report(const Target& target, const Answer& answer) {
   if (answer.level > 0) {
     const Structure& structure = structure_of(answer.level);
     set_values(structure, answer.found.event, point);
-    if (point.state) {
+    const PathPoint& at = answer.found.equilibrium;
+    // else the state stays that of the path's mesh
+    if (point.state && imbalance(structure, model_, at.y, at.lambda) <= StateLimits::imbalance) {
       State& state = result_.states[*point.state];
       const int branch = state.branch;
-      const PathPoint& at = answer.found.equilibrium;
       state = make_state(structure, model_, at.y, at.lambda, analysis_.output.points_per_member);
       state.branch = branch;
       state.refinements = answer.level;

@@ -87,14 +87,15 @@ std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathP
   return same_as(known, located.events);
 }
 
-/// The flutter that begins within a distance of a point.
-std::optional<FoundPoint> FineMesh::flutter_near(const PathPoint& at, double reach) {
+/// The point of the same kind, within a distance of a point, from which on vibrations grow.
+std::optional<FoundPoint> FineMesh::growth_near(const CriticalEvent& known, const PathPoint& at,
+                                                double reach) {
   const auto before = corrected(at, -1.0, reach);
   const auto after = corrected(at, 1.0, reach);
   if (!before || !after) return std::nullopt;
   const auto event =
-      FlutterSearch(structure_, model_).on_step(follower_.solver(), *before, *after, tolerance_).flutter;
-  if (!event) return std::nullopt;
+      FlutterSearch(structure_, model_).on_step(follower_.solver(), *before, *after, tolerance_).loss;
+  if (!event || event->type != known.type || event->cause != known.cause) return std::nullopt;
   return FoundPoint{*event, event->point};
 }
 
@@ -147,9 +148,9 @@ std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEv
   const PathPoint at = transferred(from, known.point, null);
   const double path = follower_.norm().search_scale(at);
   if (!(path > 0.0)) return std::nullopt;
-  if (known.type == CriticalType::flutter) {
-    if (auto found = flutter_near(at, PolishLimits::reach * path)) return found;
-    return flutter_near(at, PolishLimits::reach * PolishLimits::widening * path);
+  if (grows_from(known)) {
+    if (auto found = growth_near(known, at, PolishLimits::reach * path)) return found;
+    return growth_near(known, at, PolishLimits::reach * PolishLimits::widening * path);
   }
   if (known.null.size() > 0)
     if (const auto event = by_newton(known, at, null)) return FoundPoint{*event, event->point};

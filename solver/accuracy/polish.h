@@ -67,7 +67,8 @@ class FineMesh {
   [[nodiscard]] std::optional<CriticalEvent> by_newton(const CriticalEvent& known, const PathPoint& at,
                                                        Eigen::MatrixXd null);
   [[nodiscard]] std::optional<FoundPoint> near(const CriticalEvent& known, const PathPoint& at, double reach);
-  [[nodiscard]] std::optional<FoundPoint> flutter_near(const PathPoint& at, double reach);
+  [[nodiscard]] std::optional<FoundPoint> growth_near(const CriticalEvent& known, const PathPoint& at,
+                                                      double reach);
   [[nodiscard]] std::optional<FoundPoint> follow(const CriticalEvent& known, const PathPoint& before,
                                                  double distance);
 

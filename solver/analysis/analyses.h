@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "solver/discrete/capacity_balance.h"
 #include "solver/discrete/structure.h"
 #include "solver/events/critical_event.h"
 #include "solver/hooks.h"
@@ -27,20 +28,27 @@ using CriticalVisitor = std::function<void(const Structure& structure, const Loc
 /// Receives the state of a row of a static analysis: scaled unknowns and load factor.
 using StateVisitor = std::function<void(std::size_t row, const Eigen::VectorXd& y, double lambda)>;
 
+/// Load factors of a static analysis that supports hold.
+struct HeldRows {
+  std::vector<char> factors;               ///< one entry per load factor: whether it is computed
+  const CapacityEnds* capacity = nullptr;  ///< limit loads of the model's supports; null: there are none
+};
+
 /// Runs the analyses `path` and `critical`: follows the equilibrium path.
 /// @param visit may be empty
-void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-              Result& result, const CriticalVisitor& visit = {});
+/// @param capacity limit loads of the model's supports; null: there are none
+void run_path(const Model& model, const Analysis& analysis, const Structure& structure,
+              const CapacityEnds* capacity, const Hooks& hooks, Result& result,
+              const CriticalVisitor& visit = {});
 /// Runs the analysis `static`: equilibrium at given load factors, with large or small displacements.
-/// @param held one entry per load factor: whether it is computed; the others are reported as not reached
+/// @param held loads that are computed: the others are reported as not reached
 /// @param visit receives each state; may be empty
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
-                const std::vector<char>& held, const Hooks& hooks, Result& result,
-                const StateVisitor& visit = {});
+                const HeldRows& held, const Hooks& hooks, Result& result, const StateVisitor& visit = {});
 /// Runs the analysis `vibration`: small free vibrations about the equilibria at given load factors.
 /// @param held as in run_static()
 void run_vibration(const Model& model, const Analysis& analysis, const Structure& structure,
-                   const std::vector<char>& held, const Hooks& hooks, Result& result);
+                   const HeldRows& held, const Hooks& hooks, Result& result);
 /// Runs the analysis `buckling`: linearised buckling loads about the reference load.
 void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result);
 

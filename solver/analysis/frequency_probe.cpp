@@ -11,6 +11,9 @@ struct RowTolerance {
   static constexpr double on_given_mesh = 1e-9;
   static constexpr double most = 1e-6;           ///< where the accuracy chooses the mesh, at most
   static constexpr double over_accuracy = 1e-3;  ///< over the accuracy that was asked for
+  /// Least where the tangent is not symmetric: a motion's residual is as large as the error of its
+  /// eigenvalue, and rounding leaves 1e-12 to 1e-11 of it.
+  static constexpr double unsymmetric = 1e-10;
 };
 
 }  // namespace
@@ -18,19 +21,20 @@ struct RowTolerance {
 FrequencyProbe::FrequencyProbe(const Structure& structure, const Model& model, const Analysis& analysis)
     : structure_(structure), problem_(structure), masses_(make_mass_matrix(structure, model)) {
   const Discretization& mesh = analysis.discretization;
-  search_.counted = analysis.type == AnalysisType::vibration;
-  search_.count = search_.counted ? analysis.modes : analysis.output.frequencies;
-  if (search_.counted) return;
-  search_.tolerance = mesh.fixed_mesh
-                          ? RowTolerance::on_given_mesh
-                          : std::min(RowTolerance::most, RowTolerance::over_accuracy * mesh.accuracy);
+  is_asked_alone_ = analysis.type == AnalysisType::vibration;
+  search_.count = is_asked_alone_ ? analysis.modes : analysis.output.frequencies;
+  if (!is_asked_alone_)
+    search_.tolerance = mesh.fixed_mesh
+                            ? RowTolerance::on_given_mesh
+                            : std::min(RowTolerance::most, RowTolerance::over_accuracy * mesh.accuracy);
+  if (structure.unsymmetric()) search_.tolerance = std::max(search_.tolerance, RowTolerance::unsymmetric);
 }
 
 std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, double lambda) {
   if (structure_.one_sided && has_any(problem_.marks_at(y))) return std::nullopt;
   NaturalMotions found = natural_motions(structure_, problem_, masses_, y, lambda, search_, columns_);
   search_.begin_with(found);
-  if (!search_.counted && !found.converged) return std::nullopt;
+  if (!is_asked_alone_ && !(found.converged && found.complete)) return std::nullopt;
   return found;
 }
 

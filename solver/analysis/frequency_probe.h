@@ -19,14 +19,15 @@ namespace snapthrough {
 class FrequencyProbe {
  public:
   /// @param structure kept by reference; must outlive this object
-  /// @param analysis of type vibration: every state is confirmed by an inertia count; of another type: how
-  /// many frequencies its rows have, to a thousandth of its accuracy
+  /// @param analysis of type vibration: what its rows lack is told with them; of another type: how many
+  /// frequencies its rows have, to a thousandth of its accuracy
   /// @pre has_mass(model)
   FrequencyProbe(const Structure& structure, const Model& model, const Analysis& analysis);
 
   /// @param y, lambda scaled unknowns and load factor of an equilibrium
   /// @return empty: one-sided supports touch without pressure, so that small vibrations are not linear; or,
-  /// of an analysis of another type than vibration, the search did not converge
+  /// of an analysis of another type than vibration, the search did not converge or an inertia count found
+  /// lower motions that it missed
   [[nodiscard]] std::optional<NaturalMotions> at(const Eigen::VectorXd& y, double lambda);
   /// Eigenvalues in the model's units.
   [[nodiscard]] Frequencies in_units(const NaturalMotions& motions) const {
@@ -41,6 +42,7 @@ class FrequencyProbe {
   StructuralProblem problem_;
   MassMatrix masses_;
   MotionSearch search_;
+  bool is_asked_alone_ = false;  ///< the analysis is of type vibration
   KrylovColumns columns_;
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "solver/analysis/capacity_rule.h"
 #include "solver/numeric/number_text.h"
+#include "solver/report/capacity.h"
 #include "solver/report/escape_text.h"
 #include "solver/report/result_parts.h"
 
@@ -60,6 +62,50 @@ HeldLoads held_loads(const Model& model, const Analysis& analysis, const Unilate
   }
   if (!escape) return out;
   return {sentence(loads, model, balance, *escape), false, {}};
+}
+
+namespace {
+
+/// Takes the rows beyond the capacity of supports from those that one-sided supports do not hold: a capacity
+/// that resists is exhausted at a lower load. Small displacements refuse them; a path ends before them.
+void refuse_rows_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
+                                 HeldLoads& held, Result& result) {
+  const bool is_linear = analysis.geometry == Geometry::linear;
+  std::vector<double> exceeding;
+  bool others_refused = false;
+  for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
+    const double factor = analysis.load_factors[i];
+    const bool is_beyond =
+        ends.is_beyond(factor) && (held.factors[i] != 0 || !ends.of(factor)->supports.empty());
+    others_refused = others_refused || (held.factors[i] == 0 && !is_beyond);
+    if (!is_beyond) continue;
+    held.factors[i] = is_linear ? 0 : 1;
+    exceeding.push_back(factor);
+  }
+  if (exceeding.empty()) return;
+  if (!others_refused) held.refusal.reset();
+  if (is_linear) {
+    const std::string text = report_exceeded(model, ends, exceeding, result);
+    if (!held.refusal) held.code = "capacity";
+    held.refusal = held.refusal ? *held.refusal + "; " + text : text;
+  }
+  held.any = std::ranges::any_of(held.factors, [](char one) { return one != 0; });
+}
+
+}  // namespace
+
+void refuse_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
+                            HeldLoads& held, Result& result) {
+  if (analysis.start || (!held.any && ends.constant)) return;
+  if (ends.constant) {
+    result.capacity.push_back(capacity_limit(model, ends, *ends.constant, 0.0));
+    held.refusal = "supports carry no more than " + rounded(ends.constant->factor) +
+                   " of the constant actions: " + capacity_text(model, ends, *ends.constant);
+    held.code = "capacity";
+    held.any = false;
+    return;
+  }
+  if (has_rows(analysis.type)) refuse_rows_beyond_capacity(model, analysis, ends, held, result);
 }
 
 std::optional<std::string> start_refusal(const Model& model, const UnilateralBalance& balance) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/discrete/capacity_balance.h"
 #include "solver/discrete/unilateral_balance.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
@@ -18,6 +19,7 @@ struct HeldLoads {
   std::optional<std::string> refusal;  ///< sentence on the loads that are not held; empty: all loads are held
   bool any = true;                     ///< some requested load is held
   std::vector<char> factors;           ///< `static`: whether each load factor is held
+  const char* code = "not_held";       ///< failure code of the refusal
 };
 
 /// @brief Tests the loads that an analysis needs. Paths: the constant actions with a small proportional load.
@@ -26,6 +28,13 @@ struct HeldLoads {
 /// `no_start` when the state has no equilibrium.
 [[nodiscard]] HeldLoads held_loads(const Model& model, const Analysis& analysis,
                                    const UnilateralBalance& balance);
+
+/// @brief Refuses the actions that exceed the capacity of supports before anything is computed: the constant
+/// ones of any analysis, and the load factors of analyses with small displacements. Analyses with large
+/// displacements follow the path to the limit.
+/// @param[in,out] held the loads that one-sided supports hold
+void refuse_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
+                            HeldLoads& held, Result& result);
 
 /// @brief Why the path of growing load from the unloaded structure cannot start; empty: its loads are held.
 [[nodiscard]] std::optional<std::string> start_refusal(const Model& model, const UnilateralBalance& balance);

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/path_states.h"
 #include "solver/discrete/structure.h"
-#include "solver/events/root_finder.h"
 #include "solver/hooks.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/critical_point.h"
@@ -26,7 +26,11 @@ std::vector<NamedValue> Recorder::monitors(const PathPoint& point) const {
 
 double Recorder::user_load(const PathPoint& point) const { return point.lambda / structure_.scales.load; }
 
-int Recorder::add_state(const PathPoint& point) {
+std::optional<int> Recorder::add_state(const PathPoint& point, double most) {
+  if (const double left = imbalance(structure_, model_, point.y, point.lambda); !(left <= most)) {
+    refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(user_load(point), left);
+    return std::nullopt;
+  }
   State state = make_state(structure_, model_, point.y, point.lambda, analysis_.output.points_per_member);
   state.branch = branch_;
   result_.states.push_back(std::move(state));
@@ -37,7 +41,6 @@ void Recorder::begin_branch(int branch_number, std::optional<int> parent) {
   branch_ = branch_number;
   branch_points_ = 0;
   neutral_.start(branch_);
-  at_branch_start_ = true;
   if (analysis_.type != AnalysisType::path) return;
   Branch branch;
   branch.id = branch_;
@@ -53,7 +56,7 @@ void Recorder::add_point(const PathPoint& point) {
   const OutputOptions& output = analysis_.output;
   if (output.states == StateOutput::all ||
       (output.states == StateOutput::every && points_ % output.every == 0))
-    add_state(point);
+    static_cast<void>(add_state(point));
   ++points_;
   observer_.note_strain(point.y, point.lambda, branch_);
   if (branch_ == 0 && !result_.summary.critical_load_factor)
@@ -103,15 +106,16 @@ void Recorder::spread_points() {
 void Recorder::add_critical(const CriticalEvent& event) {
   CriticalPoint point = critical_point(structure_, event);
   point.branch = branch_;
-  const bool flutters = event.type == CriticalType::flutter;
-  if (event.null.size() > 0 && !is_limit(event.type) && !flutters) point.imperfection = event.imperfection;
+  const bool grows = grows_from(event);
+  if (event.null.size() > 0 && !is_limit(event.type) && !grows) point.imperfection = event.imperfection;
   // the bifurcation beside the path is no equilibrium of the imperfect structure
   const bool passed_by = event.type == CriticalType::broken_bifurcation;
   if (passed_by) point.negative_after = point.negative_before;
   if (!passed_by && analysis_.output.states != StateOutput::none &&
       analysis_.output.states != StateOutput::at_load_factors)
-    point.state = add_state(event.point);
-  if (event.null.size() > 0 && point.multiplicity == 1 && !flutters)
+    // the tangent is singular there: Newton's method ends with its bound of the residual
+    point.state = add_state(event.point, solver_.options().largest_residual);
+  if (event.null.size() > 0 && point.multiplicity == 1 && !grows)
     if (const auto member = member_that_buckles(structure_, model_, event.null.col(0)))
       point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
@@ -122,8 +126,8 @@ void Recorder::add_critical(const CriticalEvent& event) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
-    if (!flutters) softest_.lose(event.point);
-    if (event.cause == CriticalCause::smooth && !flutters) lost_ = event.point.arc_length;
+    if (!grows) softest_.lose(event.point);
+    if (event.cause == CriticalCause::smooth && !grows) lost_ = event.point.arc_length;
     result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
   }
   result_.critical_points.push_back(std::move(point));
@@ -155,7 +159,10 @@ void Recorder::end_branch(const char* code) {
   result_.branches.back().termination = code;
 }
 
-void Recorder::finish() {
+void Recorder::finish(bool last) {
+  if (last && !analysis_.discretization.fixed_mesh)
+    refine_path_states(model_, analysis_, structure_, asked_states_, hooks_.stop, result_);
+  if (!refused_.empty() && !result_.failure) fail(result_, "no_convergence", refused_);
   for (std::size_t i = 0; i < reached_.size(); ++i)
     if (!reached_[i]) result_.not_reached.push_back(analysis_.output.at_load_factors[i]);
   if (!result_.not_reached.empty())
@@ -164,24 +171,19 @@ void Recorder::finish() {
   observer_.finish(result_);
 }
 
-void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
-  for (std::size_t i = 0; i < reached_.size(); ++i) {
-    const double target = analysis_.output.at_load_factors[i] * structure_.scales.load;
-    const double va = from.lambda - target;
-    const double vb = to.lambda - target;
-    const double rounding = kSameLoadFactor * std::abs(target);
-    if (std::abs(va) <= rounding || std::abs(vb) <= rounding) {
-      reached_[i] = 1;
-      // the end of a step is the start of the next one and is recorded only once
-      if (std::abs(vb) <= rounding) add_state(to);
-      if (std::abs(va) <= rounding && at_branch_start_) add_state(from);
-      continue;
-    }
-    if ((va > 0.0) == (vb > 0.0)) continue;
-    add_state(point_at_load(solver_, from, to, target));
-    reached_[i] = 1;
-  }
-  at_branch_start_ = false;
+void Recorder::ask(TraceRules& rules) const {
+  if (analysis_.type == AnalysisType::path) rules.zones = zone_counter();
+  if (analysis_.output.states != StateOutput::at_load_factors) return;
+  for (std::size_t i = 0; i < reached_.size(); ++i)
+    rules.asked.loads.push_back({i, analysis_.output.at_load_factors[i] * structure_.scales.load});
+}
+
+void Recorder::on_asked(std::size_t row, const PathPoint& state) {
+  const std::optional<int> index = add_state(state);
+  if (!index) return;
+  reached_[row] = 1;
+  asked_states_.push_back(
+      {static_cast<std::size_t>(*index), state.y, state.lambda, state.negative, state.holds});
 }
 
 void Recorder::on_point(const PathPoint& point) {
@@ -208,7 +210,6 @@ void Recorder::on_critical(const CriticalEvent& event) {
 
 void Recorder::on_step(const PathPoint& from, const PathPoint& to) {
   if (branch_ == 0) softest_.add_step(from, to);
-  if (analysis_.output.states == StateOutput::at_load_factors) add_states_at_loads(from, to);
 }
 
 }  // namespace snapthrough

@@ -3,8 +3,10 @@
 /// Writes points and events of traced paths into the result: branches, critical points and states.
 
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "solver/accuracy/static_states.h"
 #include "solver/analysis/frequency_probe.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/path_points.h"
@@ -12,7 +14,9 @@
 #include "solver/hooks.h"
 #include "solver/report/contact.h"
 #include "solver/report/neutral_motion.h"
+#include "solver/report/state.h"
 #include "solver/trace/path_observer.h"
+#include "solver/trace/trace_rules.h"
 
 namespace snapthrough {
 
@@ -46,23 +50,29 @@ class Recorder final : public PathObserver {
   void on_contact(const ContactChange& change) override;
   void on_touching(const PathPoint& point) override;
   void on_unpinned(const PathPoint& point) override;
+  void on_asked(std::size_t row, const PathPoint& state) override;
   void on_step(const PathPoint& from, const PathPoint& to) override;
 
   /// Counts what on_contact() reports; empty when no support is one-sided.
   [[nodiscard]] ZoneCounter zone_counter() const;
+  /// Sets what the recorder wants to be told of: states at load factors, and changes of contact.
+  void ask(TraceRules& rules) const;
   /// Completes the last branch and sets its termination code.
   void end_branch(const char* code);
   /// Records a point that trace() does not report.
   void add_point(const PathPoint& point);
   /// Writes extremes and warnings of all branches, after their states are final.
-  void finish();
+  /// @param last no other mesh follows: the states at asked load factors are refined to the accuracy
+  void finish(bool last);
 
  private:
   void add_row(const PathPoint& point);
   void spread_points();
   void add_critical(const CriticalEvent& event);
-  void add_states_at_loads(const PathPoint& from, const PathPoint& to);
-  int add_state(const PathPoint& point);
+  /// Adds a state to the result.
+  /// @param most imbalance() of an equilibrium
+  /// @return its index; empty for a state that is no equilibrium
+  std::optional<int> add_state(const PathPoint& point, double most = StateLimits::imbalance);
   [[nodiscard]] std::vector<NamedValue> monitors(const PathPoint& point) const;
   [[nodiscard]] double user_load(const PathPoint& point) const;
 
@@ -77,14 +87,15 @@ class Recorder final : public PathObserver {
   NeutralMotionLog neutral_;
   std::optional<FrequencyProbe> probe_;  ///< empty: no frequencies are requested
   Observer observer_;
-  std::vector<char> reached_;  ///< requested load factors whose states were recorded
-  PathPoints kept_;            ///< current branch, when `output.path_points` is requested
+  std::string refused_;                    ///< sentences on states that are no equilibrium
+  std::vector<StaticState> asked_states_;  ///< at asked load factors; rows: indices in the result
+  std::vector<char> reached_;              ///< requested load factors whose states were recorded
+  PathPoints kept_;                        ///< current branch, when `output.path_points` is requested
   int points_ = 0;
   int branch_ = 0;
   int branch_points_ = 0;  ///< reported on the current branch
   /// Arc length at which stability was lost; the stiffness ratio is zero there by definition.
   std::optional<double> lost_;
-  bool at_branch_start_ = true;  ///< no step of the current branch has been accepted
 };
 
 }  // namespace snapthrough

@@ -33,6 +33,12 @@ struct ContactShareLimits {
   static constexpr double same = 0.01;      ///< difference of shares that is ignored
 };
 
+/// Difference of axial forces, over the largest, that is ignored. Chosen: it decides whether a warning is
+/// given.
+struct LawLimits {
+  static constexpr double same = 0.01;
+};
+
 /// Bilateral part and total of a foundation's range, scaled lengths.
 struct GluedLength {
   double glued = 0.0;
@@ -124,6 +130,45 @@ void warn_of_changed_contact(const Structure& structure, const Model& laws, Stru
                               "the linearised analysis takes it" +
                               changes + "; a path or a search for the critical load follows it"});
 }
+
+/// Largest difference of axial forces in two states, over the largest of the first.
+double axial_difference(const Structure& structure, const VectorXd& first, const VectorXd& second) {
+  double largest = 0.0;
+  double difference = 0.0;
+  for (const ElementDofs& dofs : structure.dofs) {
+    const auto axial = first.segment(dofs.s, structure.mesh.order);
+    largest = std::max(largest, axial.lpNorm<Eigen::Infinity>());
+    difference = std::max(difference,
+                          (axial - second.segment(dofs.s, structure.mesh.order)).lpNorm<Eigen::Infinity>());
+  }
+  return largest > 0.0 ? difference / largest : 0.0;
+}
+
+/// Warns when axial forces under the critical load differ from those of the linearised analysis, which grow
+/// with the load factor from those under the reference load.
+void warn_of_changed_laws(const Structure& structure, StructuralProblem& problem,
+                          const LinearBuckling& buckling, Result& result) {
+  if (buckling.prestress.size() == 0 || !result.summary.critical_load_factor) return;
+  const auto state =
+      small_displacement_state(problem, buckling.loads.front(), result.diagnostics.factorizations);
+  const double difference = state ? axial_difference(structure, buckling.prestress, *state) : 0.0;
+  if (state && difference <= LawLimits::same) return;
+  const std::string change = state
+                                 ? "the largest axial force differs by " + rounded(100.0 * difference) + " %"
+                                 : "no equilibrium with small displacements was found";
+  result.warnings.push_back(
+      {"laws_change",
+       "the load factor " + number(*result.summary.critical_load_factor) +
+           " is not to be relied on, because reactions by laws do not grow in proportion to the "
+           "load: under the critical load " +
+           change +
+           "; a reference load near the critical load makes the linearised analysis exact, a "
+           "path or a search for the critical load follows the reactions"});
+}
+
+/// Sentence on buckling loads that an inertia count does not confirm.
+constexpr const char* kIncomplete =
+    "an inertia count does not confirm that the lowest buckling loads were all found";
 
 /// Reports the largest error of the buckling loads; fails when a load is not confirmed within the accuracy.
 void report_errors(const Analysis& analysis, Result& result) {
@@ -268,7 +313,12 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
       structure.one_sided ? shares_of(structure, laws, problem, buckling.contact) : ContactShares{};
   result.summary.message += contact_text(shares, joined.has_value());
   report_errors(analysis, result);
+  if (!buckling.complete && buckling.negative_at_start == 0) {
+    withdraw_critical_load(result);
+    fail(result, "no_convergence", kIncomplete);
+  }
   warn_of_changed_contact(structure, laws, problem, buckling, result);
+  warn_of_changed_laws(structure, problem, buckling, result);
 }
 
 ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std::stop_token& stop) {
@@ -287,6 +337,8 @@ ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std
   if (buckling.held_share)
     throw std::runtime_error("an imperfection names a buckling mode: " +
                              unheld_reference(*buckling.held_share));
+  if (!buckling.complete)
+    throw std::runtime_error(std::string("an imperfection names a buckling mode: ") + kIncomplete);
   if (static_cast<int>(buckling.loads.size()) < highest)
     throw std::runtime_error("an imperfection names buckling mode " + std::to_string(highest) +
                              ", but only " + std::to_string(buckling.loads.size()) + " exist");

@@ -12,6 +12,7 @@
 #include "solver/accuracy/layers.h"
 #include "solver/accuracy/polish.h"
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/capacity_rule.h"
 #include "solver/analysis/monitor_watch.h"
 #include "solver/analysis/recorder.h"
 #include "solver/analysis/vibration_rule.h"
@@ -108,8 +109,11 @@ PathOptions options_of(const Analysis& analysis) {
   return options;
 }
 
-const char* name_of(CriticalType type) {
-  switch (type) {
+/// Name of the kind of a critical point or event.
+template <class Critical>
+const char* name_of(const Critical& point) {
+  if (point.cause == CriticalCause::massless) return "divergence of freedoms without mass";
+  switch (point.type) {
     case CriticalType::bifurcation:
       return "bifurcation";
     case CriticalType::limit_max:
@@ -120,6 +124,8 @@ const char* name_of(CriticalType type) {
       return "broken bifurcation";
     case CriticalType::flutter:
       return "flutter";
+    case CriticalType::capacity:
+      return "capacity of supports";
   }
   return "";
 }
@@ -147,6 +153,7 @@ constexpr EndText kEnds[] = {
     {TraceEnd::displacement_bound, "displacement_bound",
      "displacements or strains grew beyond any bound of interest", false},
     {TraceEnd::load_bound, "load_bound", "the load grew beyond any bound of interest", false},
+    {TraceEnd::capacity, "capacity", "the supports are at their capacity", false},
     {TraceEnd::cancelled, "cancelled", "cancelled", true},
     {TraceEnd::step_underflow, "step_underflow", "no smaller step converged; the path stands", true},
     {TraceEnd::no_start, "no_start", "no equilibrium was found for the first small load", true}};
@@ -170,7 +177,7 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double 
   const EndText* end = &text_of(outcome.end);
   std::string message = end->text;
   if (outcome.end == TraceEnd::critical_point)
-    message += std::string(": ") + name_of(outcome.critical.back().type);
+    message += std::string(": ") + name_of(outcome.critical.back());
   if (outcome.end == TraceEnd::limit_points && analysis.control.type == ControlType::load)
     message = "under load control the path ends at its first limit point";
   message += " at load factor " + number(at) + " after " + std::to_string(result.diagnostics.steps) +
@@ -187,7 +194,7 @@ std::string disagreements(const Result& result) {
   for (const CriticalPoint& point : result.critical_points) {
     if (point.confirmed) continue;
     if (++left > MessageLimits::items) continue;
-    text += "; " + std::string(name_of(point.type)) + " at " + number(point.load_factor) + ":";
+    text += "; " + std::string(name_of(point)) + " at " + number(point.load_factor) + ":";
     for (const MeshAnswer& mesh : point.meshes)
       text += " " + std::to_string(mesh.elements) + " elements of order " + std::to_string(mesh.order) + " " +
               (mesh.load_factor ? number(*mesh.load_factor) : std::string("nothing")) + ",";
@@ -209,7 +216,7 @@ const CriticalPoint* first_loss(const Analysis& analysis, const std::vector<Crit
 std::string loss_on_the_way(const Analysis& analysis, const Result& result) {
   const CriticalPoint* loss = first_loss(analysis, result.critical_points);
   if (analysis.type != AnalysisType::path || loss == nullptr) return "";
-  return std::string("first loss of stability: ") + name_of(loss->type) + " at load factor " +
+  return std::string("first loss of stability: ") + name_of(*loss) + " at load factor " +
          number(loss->load_factor) + "; ";
 }
 
@@ -284,7 +291,7 @@ class BranchFollower {
 
 void BranchFollower::add(const TraceOutcome& outcome, int branch) {
   for (const CriticalEvent& event : outcome.critical) {
-    if (event.type != CriticalType::bifurcation) continue;
+    if (event.type != CriticalType::bifurcation || grows_from(event)) continue;
     if (analysis_.branches.follow == Follow::first && !pending_.empty()) return;
     for (const double sign : {1.0, -1.0}) pending_.push_back({event, branch, sign});
     rules_.known.push_back(event.point);
@@ -303,7 +310,7 @@ bool BranchFollower::follow(const Pending& pending) {
   rules.first_step = 0.02;
   bound_negative(analysis_, first->negative, watch_, rules);
   rules.finer_imperfection = [this](const CriticalEvent& event) { return loads_.finer_imperfection(event); };
-  rules.zones = recorder_.zone_counter();
+  recorder_.ask(rules);
   const TraceOutcome outcome =
       trace(follower_, first, rules, analysis_.step, {&watch_, &recorder_, &loads_}, hooks_.stop);
   recorder_.end_branch(text_of(outcome.end).code);
@@ -349,13 +356,51 @@ Complete completer(const Model& model, const Analysis& analysis, const Hooks& ho
   };
 }
 
+/// Rules of a primary path.
+/// @param problem, watch, loads, recorder kept by reference; must outlive the rules
+TraceRules primary_rules(const Model& model, const Analysis& analysis, const Structure& structure,
+                         const CapacityEnds* capacity, StructuralProblem& problem, CriticalLoads& loads,
+                         Recorder& recorder) {
+  TraceRules rules = rules_of(model, analysis, structure);
+  rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.output.at_load_factors);
+  if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
+  rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
+  recorder.ask(rules);
+  return rules;
+}
+
+/// Reports the capacity of supports that ended a path.
+/// @param count critical points of the primary path in the result
+/// @return whether everything that the path met is confirmed; the limit needs no finer mesh
+bool confirm_capacity(const Model& model, const Analysis& analysis, const Structure& structure,
+                      const CapacityEnds& capacity, const TraceOutcome& outcome, std::size_t count,
+                      bool confirmed, Result& result) {
+  report_capacity_point(analysis, capacity, structure, model, outcome, count, result);
+  if (!outcome.on_critical) return confirmed;
+  return std::ranges::all_of(result.critical_points, &CriticalPoint::confirmed);
+}
+
+/// Sets the rule that follows the natural motions, and what is known of them at the start.
+/// @param flutter has to live as long as the rules
+void add_vibration_rule(const Model& model, const Structure& structure, PointSolver& solver,
+                        const PathStart& start, std::optional<FlutterSearch>& flutter, TraceRules& rules) {
+  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
+  rules.grows_at_start = start.grows_from.has_value();
+}
+
+void warn_of_vibrations(const Model& model, const Structure& structure, const PathStart& start,
+                        Result& result) {
+  warn_of_untested_flutter(model, structure, result);
+  warn_of_growth_at_start(start, result);
+}
+
 /// Follows the path on one mesh.
 /// @param earlier critical points of the path on a coarser mesh
 /// @param decays bending decay lengths at the path's end, for the next mesh
 /// @return whether finer meshes confirm the result, or nothing needs confirmation
 bool follow_on(const Model& model, const Analysis& analysis, const Structure& structure,
-               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, const CriticalVisitor& visit,
-               Result& result, std::vector<double>& decays) {
+               const CapacityEnds* capacity, const std::vector<CriticalPoint>& earlier, const Hooks& hooks,
+               const CriticalVisitor& visit, Result& result, std::vector<double>& decays) {
   StructuralProblem problem(structure);
   PathFollower follower(problem, options_of(analysis));
   PointSolver& solver = follower.solver();
@@ -367,19 +412,17 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                           [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
-    return follow_on(model, analysis, *touching, earlier, hooks, visit, result, decays);
+    return follow_on(model, analysis, *touching, capacity, earlier, hooks, visit, result, decays);
   }
   if (!start) return true;
   Recorder recorder(model, analysis, structure, solver, softest, hooks, result);
   CriticalLoads loads(model, analysis, structure, follower, earlier, result);
   MonitorWatch watch(structure, row_of_stop(structure, analysis), start.point->y);
   recorder.begin_branch();
-  TraceRules rules = rules_of(model, analysis, structure);
+  TraceRules rules = primary_rules(model, analysis, structure, capacity, problem, loads, recorder);
   bound_negative(analysis, start.point->negative, watch, rules);
-  if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   std::optional<FlutterSearch> flutter;
-  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
-  rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
+  add_vibration_rule(model, structure, solver, start, flutter, rules);
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
   const TraceOutcome outcome =
@@ -405,10 +448,12 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   const double at = outcome.on_critical ? result.critical_points[primary - 1].load_factor
                                         : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);
+  if (outcome.end == TraceEnd::capacity)
+    confirmed = confirm_capacity(model, analysis, structure, *capacity, outcome, primary, confirmed, result);
   result.summary.message = loss_on_the_way(analysis, result) + result.summary.message + branches + meshes;
   warn_of_still_monitor(analysis, watch, result);
-  warn_of_untested_flutter(model, structure, result);
-  recorder.finish();
+  warn_of_vibrations(model, structure, start, result);
+  recorder.finish(confirmed || result.failure);
   softest.report(structure, model, analysis, result);
   decays = bending_decays(structure, model, outcome.last.y);
   return confirmed || result.failure;
@@ -462,13 +507,14 @@ double path_direction(const Analysis& analysis) {
 }
 
 bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) {
-  return point.branch == 0 && point.negative_before == 0 &&
-         (point.negative_after > 0 || point.type == CriticalType::flutter) &&
+  return point.branch == 0 && point.negative_before == 0 && !point.after_growth &&
+         (point.negative_after > 0 || grows_from(point)) &&
          (analysis.start || point.load_factor * path_direction(analysis) > 0.0);
 }
 
-void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-              Result& result, const CriticalVisitor& visit) {
+void run_path(const Model& model, const Analysis& analysis, const Structure& structure,
+              const CapacityEnds* capacity, const Hooks& hooks, Result& result,
+              const CriticalVisitor& visit) {
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
@@ -476,7 +522,8 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     Result reached;
     reached.diagnostics = result.diagnostics;
     std::vector<double> decays;
-    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, visit, reached, decays);
+    const bool confirmed =
+        follow_on(model, analysis, *mesh, capacity, earlier, hooks, visit, reached, decays);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     report_path_mesh(*mesh, paths, result);

@@ -7,18 +7,20 @@
 #include <utility>
 #include <vector>
 
+#include "solver/accuracy/static_states.h"
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/capacity_rule.h"
 #include "solver/analysis/frequency_probe.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/softest_point.h"
 #include "solver/analysis/vibration_rule.h"
 #include "solver/events/critical_mode.h"
-#include "solver/events/root_finder.h"
 #include "solver/events/touching.h"
 #include "solver/hooks.h"
 #include "solver/newton/contact_state.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 #include "solver/report/critical_point.h"
 #include "solver/report/mode.h"
 #include "solver/report/neutral_motion.h"
@@ -30,6 +32,11 @@ namespace snapthrough {
 namespace {
 
 using Eigen::VectorXd;
+
+/// Limits of rows with small displacements.
+struct LinearRows {
+  static constexpr int corrections = 60;  ///< most corrections of a state whose contact is known
+};
 
 /// Stores the requested output of each load factor in request order.
 class StaticRows {
@@ -49,8 +56,12 @@ class StaticRows {
     if (analysis.output.frequencies > 0) probe_.emplace(structure, model, analysis);
   }
 
+  /// Adds a row, unless its state is no equilibrium: then its text tells by how much.
   /// @param negative number of negative eigenvalues of the tangent at y
-  void set(std::size_t index, const VectorXd& y, int negative);
+  /// @param holds springs on motions without stiffness at y
+  void set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds);
+  /// The states that set() refused; empty: none.
+  [[nodiscard]] const std::string& refused() const { return refused_; }
   [[nodiscard]] bool has(std::size_t index) const { return rows_[index].has_value(); }
   /// Whether a requested row is still missing.
   [[nodiscard]] bool lacks(std::size_t index) const { return asked_[index] != 0 && !has(index); }
@@ -61,6 +72,13 @@ class StaticRows {
       if (asked_[i] != 0 && condition(analysis_.load_factors[i])) return true;
     return false;
   }
+  /// The equilibria of all rows so far.
+  [[nodiscard]] std::vector<StaticState> equilibria() const {
+    std::vector<StaticState> out;
+    for (const auto& row : rows_)
+      if (row) out.push_back(row->equilibrium);
+    return out;
+  }
   /// Fills the table, the states and the list of load factors that were not reached.
   void move_to(Result& result);
 
@@ -68,7 +86,7 @@ class StaticRows {
   struct Row {
     VectorXd monitors;
     std::vector<double> contact;
-    int negative = 0;
+    StaticState equilibrium;
     std::optional<State> state;
     std::optional<Frequencies> frequencies;
   };
@@ -83,6 +101,7 @@ class StaticRows {
   Observer observer_;
   std::set<double> state_loads_;  ///< load factors with requested states
   std::vector<std::optional<Row>> rows_;
+  std::string refused_;
 };
 
 bool StaticRows::wants_state(std::size_t index) const {
@@ -93,10 +112,17 @@ bool StaticRows::wants_state(std::size_t index) const {
   return state_loads_.contains(analysis_.load_factors[index]);
 }
 
-void StaticRows::set(std::size_t index, const VectorXd& y, int negative) {
+void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds) {
   const double lambda = analysis_.load_factors[index] * structure_.scales.load;
+  if (const double left = imbalance(structure_, model_, y, lambda); !(left <= StateLimits::imbalance)) {
+    refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(analysis_.load_factors[index], left);
+    return;
+  }
   Row row{VectorXd(static_cast<Eigen::Index>(structure_.monitors.size())),
-          contact_fractions(structure_, model_, y), negative, std::nullopt, std::nullopt};
+          contact_fractions(structure_, model_, y),
+          {index, y, lambda, negative, holds},
+          std::nullopt,
+          std::nullopt};
   for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
     row.monitors[static_cast<Eigen::Index>(i)] = structure_.monitors[i].row.dot(y);
   if (probe_)
@@ -124,7 +150,7 @@ void StaticRows::move_to(Result& result) {
     }
     Row& row = *rows_[i];
     table.load_factor.push_back(analysis_.load_factors[i]);
-    table.negative_eigenvalues.emplace_back(row.negative);
+    table.negative_eigenvalues.emplace_back(row.equilibrium.negative);
     for (std::size_t m = 0; m < table.monitors.size(); ++m)
       table.monitors[m].values.push_back(row.monitors[static_cast<Eigen::Index>(m)]);
     for (std::size_t f = 0; f < table.contact_fraction.size(); ++f)
@@ -136,6 +162,23 @@ void StaticRows::move_to(Result& result) {
     result.states.push_back(std::move(*row.state));
   }
   observer_.finish(result);
+}
+
+/// Corrects a state to rounding, where the search for contact stopped before. A state that is as exact as
+/// stiff supports and pins let it be stays; imbalance() judges it.
+void settle_to_rounding(StructuralProblem& problem, const PathMetric& metric, double lambda, Workspace& work,
+                        int& factorizations, ContactState& state) {
+  problem.residual(state.y, lambda, work.residual);
+  state.relative_residual = problem.relative_residual(work.residual, state.y, lambda);
+  const double rounding = std::max(Rounding::largest_residual, problem.residual_rounding(state.y, lambda));
+  if (state.relative_residual <= rounding) return;
+  const double size = std::max(metric.norm(state.y, 0.0), kRoundingResidual);
+  VectorXd y = state.y;
+  const CorrectorOutcome outcome =
+      correct(problem, metric, {}, size, downhill({}, LinearRows::corrections), y, lambda, work);
+  factorizations += outcome.factorisations;
+  if (outcome.status == CorrectorStatus::converged)
+    state = {std::move(y), outcome.tangent, outcome.relative_residual};
 }
 
 /// Equilibrium at one load factor with small displacements and unilateral contact.
@@ -153,6 +196,7 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
     problem.set_holds(holds);
     state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
   }
+  if (state) settle_to_rounding(problem, metric, lambda, work, result.diagnostics.factorizations, *state);
   result.diagnostics.iterations = result.diagnostics.factorizations;
   if (state)
     result.diagnostics.max_relative_residual =
@@ -180,20 +224,28 @@ void fail_at(const Model& model, const Analysis& analysis, const Structure& stru
   result.critical_points.push_back(point);
   const bool is_turn = is_limit(event.type);
   const bool flutters = event.type == CriticalType::flutter;
-  const std::string what = is_turn         ? "the path has a limit point"
-                           : flutters      ? "two natural frequencies meet and vibrations grow (flutter)"
+  const bool diverges = event.cause == CriticalCause::massless;
+  const std::string what = is_turn    ? "the path has a limit point"
+                           : flutters ? "two natural frequencies meet and vibrations grow (flutter)"
+                           : diverges ? "the freedoms without mass become unstable: the square of a natural "
+                                        "frequency becomes infinite and then negative (divergence)"
                            : !point.member ? "the structure becomes unstable (bifurcation)"
                                            : "member \"" + *point.member + "\" buckles (bifurcation)";
   fail(result, is_turn ? "beyond_limit_point" : "beyond_critical_point",
        what + " at load factor " + number(point.load_factor) + ", before the asked ones; the motion " +
-           (flutters ? "with that frequency " : "that loses its stiffness there ") +
+           (grows_from(event) ? "with that frequency " : "that loses its stiffness there ") +
            motion_text(mode, model));
 }
 
-/// Trace rules of a static path up to a load factor bound.
-TraceRules static_rules(const Model& model, const Analysis& analysis, double bound) {
+/// Trace rules of a static path up to a load factor.
+/// @param scale scaled load factor of the load factor 1
+TraceRules static_rules(const Model& model, const Analysis& analysis, const StaticRows& states, double last,
+                        double scale) {
   TraceRules rules;
-  rules.load = {{-bound, bound}};
+  rules.load = {{-last * scale, last * scale}};
+  for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
+    if (states.lacks(i)) rules.asked.loads.push_back({i, analysis.load_factors[i] * scale});
+  rules.asked.once = true;
   rules.limit_points = 1;
   rules.first_loss_of_stability = analysis.unstable == Unstable::refuse;
   rules.locate = locate_options(model, analysis);
@@ -202,7 +254,8 @@ TraceRules static_rules(const Model& model, const Analysis& analysis, double bou
 
 /// Sets the failure of a static path that ended before its last load factor.
 void fail_at_end(const Model& model, const Analysis& analysis, const Structure& structure,
-                 StructuralProblem& problem, const TraceOutcome& outcome, Result& result) {
+                 const CapacityEnds* capacity, StructuralProblem& problem, const TraceOutcome& outcome,
+                 Result& result) {
   const std::string where = number(outcome.last.lambda / structure.scales.load);
   switch (outcome.end) {
     case TraceEnd::cancelled:
@@ -211,6 +264,10 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
     case TraceEnd::critical_point:
     case TraceEnd::limit_points:
       fail_at(model, analysis, structure, problem, outcome.critical.back(), result);
+      return;
+    case TraceEnd::capacity:
+      fail(result, "capacity",
+           report_capacity(*capacity, model, capacity_load(*capacity, structure, outcome), result));
       return;
     case TraceEnd::unstable_at_start:
       fail(result, "beyond_critical_point", "the structure is unstable before the load grows");
@@ -224,10 +281,9 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
 class StaticObserver final : public PathObserver {
  public:
   StaticObserver(const Model& model, const Analysis& analysis, const Structure& structure,
-                 PointSolver& solver, SoftestPoint& softest, StaticRows& states, Result& result)
+                 SoftestPoint& softest, StaticRows& states, Result& result)
       : analysis_(analysis),
         structure_(structure),
-        solver_(solver),
         softest_(softest),
         states_(states),
         result_(result),
@@ -240,26 +296,20 @@ class StaticObserver final : public PathObserver {
   void on_unpinned(const PathPoint& point) override { on_point(point); }
   void on_critical(const CriticalEvent& event) override {
     if (event.negative_before == 0 && event.negative_after > 0) softest_.lose(event.point);
-    if (event.type != CriticalType::flutter || analysis_.unstable == Unstable::refuse) return;
-    result_.warnings.push_back({"unstable", "vibrations grow (flutter) from load factor " +
-                                                number(event.point.lambda / structure_.scales.load) + " on"});
+    if (!grows_from(event) || analysis_.unstable == Unstable::refuse) return;
+    result_.warnings.push_back(
+        {"unstable",
+         std::string("vibrations grow (") + (event.type == CriticalType::flutter ? "flutter" : "divergence") +
+             ") from load factor " + number(event.point.lambda / structure_.scales.load) + " on"});
   }
-  void on_step(const PathPoint& from, const PathPoint& to) override {
-    softest_.add_step(from, to);
-    for (std::size_t i = 0; i < analysis_.load_factors.size(); ++i) {
-      const double target = analysis_.load_factors[i] * structure_.scales.load;
-      const bool reached = std::abs(to.lambda - target) <= kSameLoadFactor * std::abs(target);
-      const bool passed = (from.lambda - target) * (to.lambda - target) <= 0.0;
-      if (!states_.lacks(i) || !(reached || passed)) continue;
-      const PathPoint point = reached ? to : point_at_load(solver_, from, to, target);
-      states_.set(i, point.y, point.negative);
-    }
+  void on_asked(std::size_t row, const PathPoint& state) override {
+    states_.set(row, state.y, state.negative, state.holds);
   }
+  void on_step(const PathPoint& from, const PathPoint& to) override { softest_.add_step(from, to); }
 
  private:
   const Analysis& analysis_;
   const Structure& structure_;
-  PointSolver& solver_;
   SoftestPoint& softest_;
   StaticRows& states_;
   Result& result_;
@@ -267,8 +317,9 @@ class StaticObserver final : public PathObserver {
 };
 
 /// Follows the path through all load factors of one sign, stores their states; false when it ends earlier.
-bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
-            const Hooks& hooks, StaticRows& states, Result& result) {
+bool follow(const Model& model, const Analysis& analysis, const Structure& structure,
+            const CapacityEnds* capacity, double direction, const Hooks& hooks, StaticRows& states,
+            Result& result) {
   double last = 0.0;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (states.lacks(i)) last = std::max(last, analysis.load_factors[i] * direction);
@@ -281,28 +332,36 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
                     [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
-    return follow(model, analysis, *touching, direction, hooks, states, result);
+    return follow(model, analysis, *touching, capacity, direction, hooks, states, result);
   }
   if (!start) return false;
+  if (start.grows_from && analysis.unstable == Unstable::refuse) {
+    warn_of_growth_at_start(start, result);
+    fail(result, "beyond_critical_point", result.warnings.back().detail);
+    result.warnings.pop_back();
+    return false;
+  }
+  warn_of_growth_at_start(start, result);
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
-    if (analysis.load_factors[i] == 0.0 && states.lacks(i))
-      states.set(i, start.point->y, start.point->negative);
+    if (analysis.load_factors[i] == 0.0 && start.point->lambda == 0.0 && states.lacks(i))
+      states.set(i, start.point->y, start.point->negative, start.point->holds);
   if (last == 0.0) return true;
-  TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
+  TraceRules rules = static_rules(model, analysis, states, last, structure.scales.load);
+  rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.load_factors);
   std::optional<FlutterSearch> flutter;
   rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
-  StaticObserver observer(model, analysis, structure, solver, softest, states, result);
+  StaticObserver observer(model, analysis, structure, softest, states, result);
   const TraceOutcome outcome = trace(follower, start.point, rules, analysis.step, {&observer}, hooks.stop);
   add_statistics(follower.statistics(), result);
   softest.report(structure, model, analysis, result);
   if (outcome.end == TraceEnd::load_factor) return true;
-  fail_at_end(model, analysis, structure, problem, outcome, result);
+  fail_at_end(model, analysis, structure, capacity, problem, outcome, result);
   return false;
 }
 
 /// Computes the states at all requested load factors.
-void compute(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-             StaticRows& states, Result& result) {
+void compute(const Model& model, const Analysis& analysis, const Structure& structure,
+             const CapacityEnds* capacity, const Hooks& hooks, StaticRows& states, Result& result) {
   if (analysis.geometry == Geometry::linear) {
     StructuralProblem problem(structure);
     NeutralMotionLog neutral(structure, model, result.neutral_motion);
@@ -310,7 +369,7 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
       if (!states.lacks(i)) continue;
       SharedHolds holds;
       if (const auto state = solve_linear(structure, problem, analysis.load_factors[i], holds, result)) {
-        states.set(i, state->y, state->tangent.negative);
+        states.set(i, state->y, state->tangent.negative, holds);
         neutral.note(holds, analysis.load_factors[i]);
       } else {
         fail(result, "no_convergence",
@@ -320,9 +379,31 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
   } else {
     const bool falling = states.asks_for([](double factor) { return factor < 0.0; });
     const bool growing = states.asks_for([](double factor) { return factor >= 0.0; });
-    if (growing) static_cast<void>(follow(model, analysis, structure, 1.0, hooks, states, result));
-    if (falling) static_cast<void>(follow(model, analysis, structure, -1.0, hooks, states, result));
+    if (growing) static_cast<void>(follow(model, analysis, structure, capacity, 1.0, hooks, states, result));
+    if (falling) static_cast<void>(follow(model, analysis, structure, capacity, -1.0, hooks, states, result));
   }
+}
+
+/// The states of a static analysis on a mesh that meets its accuracy.
+RefinedStates refined(const Model& model, const Analysis& analysis, const Structure& structure,
+                      const CapacityEnds* capacity, const Hooks& hooks,
+                      const std::vector<StaticState>& states, Result& result) {
+  Analysis bare = analysis;
+  bare.output.states = StateOutput::none;
+  bare.output.frequencies = 0;
+  bare.output.extremes = false;
+  const Hooks quiet{hooks.stop};
+  const auto find = [&](const Structure& finer, const std::vector<StaticState>& wanted) {
+    std::vector<char> asked(analysis.load_factors.size(), 0);
+    for (const StaticState& state : wanted) asked[state.row] = 1;
+    StaticRows rows(model, bare, finer, asked, {});
+    Result found;
+    found.diagnostics.factorizations = 0;
+    compute(model, bare, finer, capacity, quiet, rows, found);
+    result.diagnostics.factorizations += found.diagnostics.factorizations;
+    return rows.equilibria();
+  };
+  return refine_states(model, analysis.discretization, structure, states, find);
 }
 
 /// Reports the stability of the rows, in the message or in a warning.
@@ -358,17 +439,31 @@ void report_stability(const Analysis& analysis, Result& result) {
 }  // namespace
 
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
-                const std::vector<char>& held, const Hooks& hooks, Result& result,
-                const StateVisitor& visit) {
-  StaticRows states(model, analysis, structure, held, visit);
+                const HeldRows& held, const Hooks& hooks, Result& result, const StateVisitor& visit) {
+  StaticRows states(model, analysis, structure, held.factors, visit);
   result.summary.termination = "load_factors";
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
-  if (!unless_cancelled([&] { compute(model, analysis, structure, hooks, states, result); }))
+  if (!unless_cancelled([&] { compute(model, analysis, structure, held.capacity, hooks, states, result); }))
     fail(result, "cancelled", "cancelled before all load factors were reached");
+  if (!result.failure && !states.refused().empty()) fail(result, "no_convergence", states.refused());
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
     if (states.lacks(i))
       fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");
-  states.move_to(result);
+  // vibrations are compared on meshes of their own
+  const std::vector<StaticState> found = states.equilibria();
+  std::optional<RefinedStates> finer;
+  std::optional<StaticRows> of_finer;
+  if (!visit && !found.empty() && !analysis.discretization.fixed_mesh)
+    static_cast<void>(unless_cancelled(
+        [&] { finer = refined(model, analysis, structure, held.capacity, hooks, found, result); }));
+  if (finer && finer->structure.get() != &structure) {
+    of_finer.emplace(model, analysis, *finer->structure, held.factors, visit);
+    for (const StaticState& state : finer->states)
+      of_finer->set(state.row, state.y, state.negative, state.holds);
+    if (!result.failure && !of_finer->refused().empty()) fail(result, "no_convergence", of_finer->refused());
+  }
+  if (finer) report_accuracy(*finer, analysis.discretization, result);
+  (of_finer ? *of_finer : states).move_to(result);
   warn_of_untested_flutter(model, structure, result);
   report_stability(analysis, result);
 }

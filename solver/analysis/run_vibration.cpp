@@ -35,7 +35,7 @@ struct Level {
 };
 
 Level solve_on(const Model& model, const Analysis& analysis, std::shared_ptr<const Structure> structure,
-               const std::vector<char>& held, const Hooks& hooks) {
+               const HeldRows& held, const Hooks& hooks) {
   Level out;
   out.structure = std::move(structure);
   out.rows.resize(analysis.load_factors.size());
@@ -148,7 +148,7 @@ void report_rows(const Model& model, const Analysis& analysis, const Level& leve
 }  // namespace
 
 void run_vibration(const Model& model, const Analysis& analysis, const Structure& structure,
-                   const std::vector<char>& held, const Hooks& hooks, Result& result) {
+                   const HeldRows& held, const Hooks& hooks, Result& result) {
   const double accuracy = analysis.discretization.accuracy;
   std::vector<std::vector<RankError>> errors(analysis.load_factors.size());
   Level now = solve_on(model, analysis, {std::shared_ptr<const Structure>(), &structure}, held, hooks);

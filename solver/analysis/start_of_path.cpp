@@ -1,13 +1,16 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/vibration_rule.h"
 #include "solver/discrete/given_state.h"
 #include "solver/hooks.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 #include "solver/report/result_parts.h"
 #include "solver/trace/trace.h"
 
@@ -64,13 +67,43 @@ class UnloadedPoint final : public PathObserver {
   const std::function<void(const PathPoint&)>& receive_;
 };
 
+/// A state with its displaced ground and nothing else, where that is an equilibrium; else the state. What
+/// ground that does not reach the structure leaves of its displacements is rounding.
+Eigen::VectorXd unmoved_if_it_holds(const Structure& structure, StructuralProblem& problem,
+                                    const Eigen::VectorXd& y) {
+  const Eigen::Index first = 3 * static_cast<Eigen::Index>(structure.first_ground);
+  const Eigen::Index count = 3 * static_cast<Eigen::Index>(structure.first_stop_node) - first;
+  Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(y.size());
+  unmoved.segment(first, count) = y.segment(first, count);
+  Eigen::VectorXd residual;
+  problem.residual(unmoved, 0.0, residual);
+  const double rounding = Rounding::distance * unmoved.lpNorm<Eigen::Infinity>();
+  return residual.lpNorm<Eigen::Infinity>() <= rounding ? unmoved : y;
+}
+
 /// Converts the end of the constant actions' path to the start of the next path, with constant actions in
 /// full: corrects the load factor error of the last step.
-PathPoint fully_loaded(PointSolver& solver, const PathPoint& end) {
+PathPoint fully_loaded(const Structure& structure, StructuralProblem& problem, PointSolver& solver,
+                       PathPoint end) {
+  end.y = unmoved_if_it_holds(structure, problem, end.y);
   PathPoint full = end;
   full.lambda = 0.0;
   const double moved = solver.norm().metric().norm(end.y, 0.0);
   return moved > 0.0 && solver.correct_at_load(moved, full) ? full : end;
+}
+
+/// Hands what is known of stability on the constant actions' path to the start of the next path: the number
+/// of real eigenvalues below zero, of which a tangent that is not symmetric tells the parity alone, and
+/// flutter.
+void hand_on_stability(const Model& model, const Structure& structure, StructuralProblem& problem,
+                       const TraceOutcome& outcome, PathStart& start) {
+  PathPoint& point = *start.point;
+  point.negative = count_next_to(outcome.last.negative, {point.negative, 0.0, true});
+  const bool is_linear = !structure.one_sided || !has_any(problem.marks_at(point.y));
+  if (!has_mass(model) || !is_linear || !FlutterSearch(structure, model).flutters_at(point)) return;
+  start.grows_from = 1.0;
+  for (const CriticalEvent& event : outcome.critical)
+    if (event.type == CriticalType::flutter) start.grows_from = event.point.lambda;
 }
 
 }  // namespace
@@ -123,6 +156,9 @@ PathStart start_of_path(const Model& model, const Structure& structure, Structur
   rules.limit_points = 1;
   UnloadedPoint unloaded(on_unloaded);
   const PathStart first = find_start(loading.solver(), 1.0, StartLimits::first_load);
+  std::optional<FlutterSearch> flutter;
+  rules.vibrations = vibration_rule(model, structure, loading.solver(), rules.locate.tolerance, flutter,
+                                    StructuralProblem::Stage::constant);
   const TraceOutcome outcome = trace(loading, first.point, rules, {}, {&unloaded}, hooks.stop);
   problem.set_stage(StructuralProblem::Stage::proportional);
   add_statistics(loading.statistics(), result);
@@ -150,9 +186,10 @@ PathStart start_of_path(const Model& model, const Structure& structure, Structur
              " of them");
     return {};
   }
-  PathStart start =
-      start_at_equilibrium(solver, fully_loaded(solver, outcome.last).y, direction, outcome.last.holds);
+  PathStart start = start_at_equilibrium(solver, fully_loaded(structure, problem, solver, outcome.last).y,
+                                         direction, outcome.last.holds);
   if (!start) fail_to_start(model, structure, start, result);
+  if (start && structure.unsymmetric()) hand_on_stability(model, structure, problem, outcome, start);
   return start;
 }
 

@@ -14,11 +14,11 @@ namespace snapthrough {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-FreeMotions::FreeMotions(const Model& model) {
+FreeMotions::FreeMotions(const Model& model, HeldBy held_by) {
   if (is_plainly_held(model)) return;
   if (std::optional<Model> joined = with_joined_supports(model))
     joined_ = std::make_unique<const Model>(*std::move(joined));
-  mechanism_ = std::make_unique<const RigidMechanism>(joined_ ? *joined_ : model, false);
+  mechanism_ = std::make_unique<const RigidMechanism>(joined_ ? *joined_ : model, held_by);
   motions_.resize(mechanism_->parts().unknowns(), static_cast<Index>(mechanism_->motions().size()));
   for (Index i = 0; i < motions_.cols(); ++i)
     motions_.col(i) = mechanism_->motions()[static_cast<std::size_t>(i)];

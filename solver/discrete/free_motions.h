@@ -10,13 +10,14 @@
 
 namespace snapthrough {
 
-/// @brief Strain-free motions of a structure without its one-sided supports. Opposite supports that touch act
-/// as one bilateral support (with_joined_supports()) and remain.
+/// @brief Strain-free motions of a structure without its one-sided supports, or without those and the
+/// supports with a capacity. Opposite supports that touch act as one bilateral support
+/// (with_joined_supports()) and remain.
 class FreeMotions {
  public:
   /// @param model kept by reference
   /// @pre the model passed check()
-  explicit FreeMotions(const Model& model);
+  explicit FreeMotions(const Model& model, HeldBy held_by = HeldBy::bilateral);
 
   [[nodiscard]] bool empty() const { return motions_.cols() == 0; }
   /// Orthonormal columns over the unknowns of parts(); at most MechanismLimits::motions.
@@ -29,6 +30,12 @@ class FreeMotions {
   /// @brief Node displacements (x, y over the longest member's length, rotation) of the motions: orthonormal
   /// columns with the same span; no columns when there are none.
   [[nodiscard]] Eigen::MatrixXd of_nodes() const;
+  /// @brief Node displacements (x, y over the longest member's length, rotation) of one motion.
+  /// @param motion over the unknowns of parts()
+  /// @pre not empty
+  [[nodiscard]] Eigen::VectorXd of_nodes(const Eigen::VectorXd& motion) const {
+    return mechanism_->of_nodes(motion);
+  }
 
  private:
   std::unique_ptr<const Model> joined_;  ///< null: no supports are opposite

@@ -10,6 +10,11 @@
 namespace snapthrough {
 namespace {
 
+/// Source: digits of published and stored results.
+struct GivenStateLimits {
+  static constexpr double reached = 1e-6;  ///< distance to a stop that acts, over the largest displacement
+};
+
 /// Splines through the scaled values of one member over the scaled arc length.
 struct MemberSplines {
   double length = 0.0;
@@ -50,6 +55,17 @@ void set_element(const Structure& structure, const MemberSplines& member, int el
   }
 }
 
+/// Lets the stops act that the members reach; equations linear in their forces then give these.
+void set_stops(const Structure& structure, const Model& model, Eigen::VectorXd& y) {
+  const double largest = y.head(3 * static_cast<Eigen::Index>(structure.nodes)).lpNorm<Eigen::Infinity>();
+  for (std::size_t i = 0; structure.stops > 0 && i < model.springs.size(); ++i) {
+    const SpringLaw& law = structure.spring_laws[i];
+    if (law.force_unknown >= 0 &&
+        reading_of(structure, model, i, y).depth > -GivenStateLimits::reached * largest)
+      y[law.force_unknown] = law.law.stiffness * largest;
+  }
+}
+
 }  // namespace
 
 Eigen::VectorXd unknowns_of(const Structure& structure, const Model& model, const StartState& state) {
@@ -76,6 +92,7 @@ Eigen::VectorXd unknowns_of(const Structure& structure, const Model& model, cons
   for (std::size_t e = 0; e < structure.mesh.elements.size(); ++e)
     set_element(structure, members[static_cast<std::size_t>(structure.mesh.elements[e].member)],
                 static_cast<int>(e), y);
+  set_stops(structure, model, y);
   return y;
 }
 

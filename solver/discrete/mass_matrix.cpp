@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <span>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -118,10 +121,25 @@ void add_forces(const Eigen::MatrixXd& block, Index a, Index v,
   }
 }
 
+bool is_heavy(const Section& section) { return section.mass && section.mass->largest() > 0.0; }
+
+/// Motions of heavy places that supports leave free.
+Index free_motions_of_places(const Structure& structure, const Model& model) {
+  std::set<std::tuple<std::string, std::string, double, int>> motions;  // a place and a component
+  for (const PointMass& point : model.masses)
+    for (int c = 0; c < 3; ++c) {
+      const bool moves = (c < 2 ? point.mass : point.inertia) > 0.0;
+      const bool is_fixed =
+          !point.at.node.empty() &&
+          structure.supports[static_cast<std::size_t>(index_of(model.nodes, point.at.node))].fixed[c];
+      if (moves && !is_fixed) motions.emplace(point.at.node, point.at.member, point.at.fraction, c);
+    }
+  return static_cast<Index>(motions.size());
+}
+
 }  // namespace
 
 bool has_mass(const Model& model) {
-  const auto is_heavy = [](const Section& section) { return section.mass && section.mass->largest() > 0.0; };
   return std::any_of(model.sections.begin(), model.sections.end(), is_heavy) ||
          std::any_of(model.masses.begin(), model.masses.end(),
                      [](const PointMass& point) { return point.mass > 0.0 || point.inertia > 0.0; });
@@ -157,6 +175,9 @@ MassMatrix make_mass_matrix(const Structure& structure, const Model& model) {
     const double l = structure.axes[m]->length() / structure.scales.length;
     out.scale = std::min(out.scale, structure.euler_loads[m] * std::numbers::pi * std::numbers::pi / (l * l));
   }
+  out.rank = std::any_of(model.sections.begin(), model.sections.end(), is_heavy)
+                 ? structure.size
+                 : free_motions_of_places(structure, model);
   return out;
 }
 

@@ -24,6 +24,9 @@ struct MassMatrix {
   double square = 1.0;             ///< omega^2 of mu = 1, in the model's units
   /// Estimate of the lowest mu of a member alone: pi^4 EI / (m l^4), least over the members.
   double scale = 1.0;
+  /// Number of independent motions that move mass: where places alone are heavy, those of the places; else
+  /// the number of unknowns.
+  Eigen::Index rank = 0;
 };
 
 /// Whether any section or place has a mass that is not zero.

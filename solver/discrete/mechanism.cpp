@@ -94,14 +94,14 @@ bool is_plainly_held(const Model& model) {
 
 bool can_move(const Model& model) {
   const std::optional<Model> acting = with_rods_as_springs(model);
-  return !RigidMechanism(acting ? *acting : model, true).motions().empty();
+  return !RigidMechanism(acting ? *acting : model, HeldBy::all_as_bilateral).motions().empty();
 }
 
 std::vector<Finding> find_mechanism(const Model& given) {
   if (is_plainly_held(given)) return {};
   const std::optional<Model> acting = with_rods_as_springs(given);
   const Model& model = acting ? *acting : given;
-  const RigidMechanism mechanism(model, true);
+  const RigidMechanism mechanism(model, HeldBy::all_as_bilateral);
   if (mechanism.unknown())
     return {
         {"/model/members", "too_connected",

@@ -21,7 +21,7 @@ NodeSpring::Chord NodeSpring::chord(const Vector3d& r) const {
 /// With e along the rod and n across it, dl/dr = -e and d2l/dr2 = n n^T / l.
 SpringMotion NodeSpring::motion(const Eigen::Ref<const VectorXd>& y, bool small_displacements) const {
   const Vector3d r = relative(y);
-  SpringMotion out{direction().dot(r), direction(), Matrix3d::Zero()};
+  SpringMotion out{linear(y), direction(), Matrix3d::Zero()};
   if (!is_rod() || small_displacements) return out;
   const auto [e, n, l] = chord(r);
   // the shortening L - l as (L^2 - l^2) / (L + l), with the initial length L and the present length l, has
@@ -55,6 +55,8 @@ NodeSpring node_spring(const SpringLaw& law, int node, int to) {
   out.sense = law.sense;
   out.length = law.length;
   out.law = law.law;
+  out.force_unknown = law.force_unknown;
+  out.give = law.give;
   return out;
 }
 

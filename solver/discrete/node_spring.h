@@ -28,6 +28,12 @@ struct SpringMotion {
 ///                                                   from `node`: its shortening or lengthening
 ///
 /// A rod's w is row . r too where displacements count as small.
+///
+/// The force p of a stop is an unknown, because stiffness times penetration would be the rounding of the
+/// displacements. A stop of the compliance c and the gap g acts where  w - g + p / k - c p > 0;  there
+/// w - g = c p, elsewhere p = 0 (the complementarity function of Alart and Curnier, Comput. Methods Appl.
+/// Mech. Eng. 92, 1991). The stiffness k of `law` makes a force a distance and is no stiffness of the stop.
+/// Readings of a stop's displacement, and w of motion(), include p / k - c p.
 struct NodeSpring {
   int node = 0;
   int to = -1;  ///< node at the other end; -1: the ground
@@ -36,9 +42,12 @@ struct NodeSpring {
   double length = 0.0;  ///< length of a rod; 0: the direction is fixed
   Law law;
   Touch touch = Touch::none;
-  int spring = -1;  ///< index among the springs
+  int spring = -1;         ///< index among the springs
+  int force_unknown = -1;  ///< unknown force of a stop; -1: the law gives the force
+  double give = 0.0;       ///< compliance of a stop
 
   [[nodiscard]] bool is_rod() const { return length > 0.0; }
+  [[nodiscard]] bool is_stop() const { return force_unknown >= 0; }
   /// Displacement r in a vector of unknowns.
   [[nodiscard]] Eigen::Vector3d relative(const Eigen::Ref<const Eigen::VectorXd>& y) const {
     Eigen::Vector3d r = y.segment<3>(3 * static_cast<Eigen::Index>(node));
@@ -51,9 +60,13 @@ struct NodeSpring {
     if (to >= 0) forces.segment<3>(3 * static_cast<Eigen::Index>(to)) -= force;
   }
   [[nodiscard]] Eigen::Vector3d direction() const { return {row[0], row[1], row[2]}; }
+  /// Displacement w at the unknowns y, for small displacements, without the force of a stop.
+  [[nodiscard]] double moved(const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return direction().dot(relative(y));
+  }
   /// Displacement w at the unknowns y, for small displacements.
   [[nodiscard]] double linear(const Eigen::Ref<const Eigen::VectorXd>& y) const {
-    return direction().dot(relative(y));
+    return is_stop() ? moved(y) + (1.0 / law.stiffness - give) * y[force_unknown] : moved(y);
   }
   /// Displacement w at the unknowns y, with its derivatives.
   [[nodiscard]] SpringMotion motion(const Eigen::Ref<const Eigen::VectorXd>& y,

@@ -9,6 +9,7 @@
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/null_space.h"
 #include "solver/numeric/rounding.h"
+#include "solver/support/capacity.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -20,8 +21,7 @@ using Row = RigidParts::Row;
 /// constrains.
 class Holding {
  public:
-  /// @param one_sided true: one-sided supports are included, as bilateral
-  Holding(const RigidParts& parts, bool one_sided) : parts_(parts), one_sided_(one_sided) {
+  Holding(const RigidParts& parts, HeldBy held_by) : parts_(parts), held_by_(held_by) {
     for (const Support& support : parts.model().supports) add(support);
     for (const Spring& spring : parts.model().springs)
       if (is_there(spring)) add(spring);
@@ -37,7 +37,13 @@ class Holding {
  private:
   template <class Support>
   [[nodiscard]] bool is_there(const Support& support) const {
-    return initial_stiffness(support) > 0.0 && (one_sided_ || support.reaction == Reaction::bilateral);
+    return initial_stiffness(support) > 0.0 &&
+           (held_by_ == HeldBy::all_as_bilateral || support.reaction == Reaction::bilateral);
+  }
+  /// Whether a support does not hold its place, because it carries no more than its capacity.
+  template <class Support>
+  [[nodiscard]] bool gives_way(const Support& support) const {
+    return held_by_ == HeldBy::without_capacity && has_capacity(support);
   }
   void add(const Support& support);
   void add(const Spring& spring);
@@ -47,7 +53,7 @@ class Holding {
   void hold(int member, RigidParts::Point at, double x, double y);
 
   const RigidParts& parts_;
-  bool one_sided_;
+  HeldBy held_by_;
 };
 
 void Holding::hold(const Row& rotation, double radius) {
@@ -78,6 +84,7 @@ void Holding::add(const Support& support) {
 }
 
 void Holding::add(const Spring& spring) {
+  if (gives_way(spring)) return;
   const Location& at = spring.at;
   if (!spring.direction) {
     hold(parts_.displacement(spring), at.member.empty() ? parts_.node_radius(parts_.node(at.node))
@@ -106,7 +113,7 @@ void Holding::add(const Foundation& foundation) {
     const double c = std::cos(at.angle);
     const double s = std::sin(at.angle);
     const auto [x, y] = law.initial_direction({{at.x, at.y}, at.angle, 0.0});
-    hold(member, {at.x, at.y}, x, y);
+    if (!gives_way(foundation)) hold(member, {at.x, at.y}, x, y);
     if (!(foundation.shear_stiffness > 0.0)) continue;
     const double turn = foundation.direction ? 0.0 : -at.curvature;
     Row row = parts_.displacement(member, {at.x, at.y}, {turn * c, turn * s});
@@ -118,8 +125,8 @@ void Holding::add(const Foundation& foundation) {
 
 }  // namespace
 
-RigidMechanism::RigidMechanism(const Model& model, bool one_sided) : parts_(model) {
-  Holding holding(parts_, one_sided);
+RigidMechanism::RigidMechanism(const Model& model, HeldBy held_by) : parts_(model) {
+  Holding holding(parts_, held_by);
   std::vector<Row> rows = parts_.joints();
   rows.insert(rows.end(), holding.held.begin(), holding.held.end());
   std::vector<Row> sizes = parts_.turns();

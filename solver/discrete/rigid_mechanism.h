@@ -22,12 +22,18 @@ struct MechanismLimits {
   static constexpr int places_on_curve = 6;
 };
 
+/// Which supports hold a structure of rigid parts.
+enum class HeldBy {
+  all_as_bilateral,  ///< every support, one-sided ones as bilateral
+  bilateral,         ///< bilateral supports only
+  without_capacity   ///< bilateral supports whose law has no capacity
+};
+
 /// @brief Strain-free motions that the supports of a model allow.
 class RigidMechanism {
  public:
   /// @param model kept by reference
-  /// @param one_sided true: one-sided supports are included, as bilateral; false: they are omitted
-  RigidMechanism(const Model& model, bool one_sided);
+  RigidMechanism(const Model& model, HeldBy held_by);
 
   [[nodiscard]] const RigidParts& parts() const { return parts_; }
   /// Orthonormal vectors over the rigid parts' unknowns.

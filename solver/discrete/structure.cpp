@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "solver/discrete/foundation_springs.h"
+#include "solver/discrete/stops.h"
 #include "solver/discrete/structure_laws.h"
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
@@ -57,7 +58,6 @@ class Builder {
   /// @param load_scale scale of another mesh or model; empty: from the loads
   void add_loads(std::optional<double> load_scale);
   void set_metric();
-  void add_monitors();
   /// Hands the complete elements over to the structure.
   void finish() { out_.elements = std::move(elements_); }
 
@@ -156,7 +156,7 @@ void Builder::set_scales(const Scales* known) {
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
-  out_.first_ground = static_cast<int>(model_.nodes.size());
+  number_nodes(model_, out_);
   add_laws(model_, model_, out_, out_.foundation_laws, out_.spring_laws);
   add_laws(model_, laws_, out_, foundation_laws_, spring_laws_);
   const auto keep = [this](const auto& law) {
@@ -166,11 +166,21 @@ void Builder::set_scales(const Scales* known) {
   std::for_each(spring_laws_.begin(), spring_laws_.end(), keep);
 }
 
+/// Numbers the forces of stops from a first unknown on. @return their number
+int number_stops(int first, std::vector<SpringLaw>& laws) {
+  int stops = 0;
+  for (SpringLaw& law : laws)
+    if (law.give > 0.0) law.force_unknown = first + stops++;
+  return stops;
+}
+
+/// Unknowns of a node's displacements and rotation.
+std::array<int, 3> unknowns_of_node(int node) { return {3 * node, 3 * node + 1, 3 * node + 2}; }
+
 void Builder::number_unknowns() {
   const Mesh& mesh = out_.mesh;
   const int p = mesh.order;
   out_.dofs.reserve(mesh.elements.size());
-  out_.nodes = out_.first_ground + static_cast<int>(ground_displacements(model_).size());
   int next = 3 * out_.nodes;
   std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
   const auto release = [&](bool is_released, const std::string& node, double stiffness, int& end) {
@@ -186,6 +196,11 @@ void Builder::number_unknowns() {
     release(member.release_end_rotation, member.end, member.release_end_stiffness, released[m][1]);
   }
   out_.releases = next - 3 * out_.nodes;
+  out_.stops = number_stops(next, spring_laws_);
+  number_stops(next, out_.spring_laws);
+  next += out_.stops;
+  const auto first_stop = out_.stop_elements.begin();
+  auto next_stop = first_stop;
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const int start = index_of(model_.nodes, model_.members[m].start);
     const int end = index_of(model_.nodes, model_.members[m].end);
@@ -200,6 +215,8 @@ void Builder::number_unknowns() {
       dofs.b = {next, next + 1, next + 2};
       if (e + 1 == mesh.first[m + 1])
         dofs.b = {3 * end, 3 * end + 1, released[m][1] >= 0 ? released[m][1] : 3 * end + 2};
+      else if (next_stop != out_.stop_elements.end() && *next_stop == e + 1)
+        dofs.b = unknowns_of_node(out_.first_stop_node + static_cast<int>(next_stop++ - first_stop));
       else
         next += 3;
       a = dofs.b;
@@ -327,7 +344,7 @@ void Builder::find_supports() {
   add_foundations(laws_.foundations, &Here::laws);
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Location& at = laws_.springs[i].at;
-    if (at.member.empty()) continue;
+    if (at.member.empty() || spring_laws_[i].give > 0.0) continue;
     const MeshPlace place = place_of(out_.mesh, index_of(model_.members, at.member), at.fraction);
     here_[static_cast<std::size_t>(place.element)].springs.push_back(i);
   }
@@ -368,7 +385,7 @@ void Builder::add_elements() {
   add_unresolved();
 }
 
-/// Adds a message for each foundation whose stiffness was bounded.
+/// Adds a message for each foundation whose stiffness was bounded; that of a rigid one always is.
 void Builder::add_unresolved() {
   std::vector<double> least;
   least.reserve(out_.foundation_laws.size());
@@ -379,7 +396,7 @@ void Builder::add_unresolved() {
   }
   for (std::size_t i = 0; i < least.size(); ++i) {
     const double given = out_.foundation_laws[i].law.stiffness;
-    if (!std::isfinite(given) || !(least[i] < given)) continue;
+    if (!(least[i] < given)) continue;
     out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
                            rounded(least[i] / out_.scales.scaled_modulus(1.0)) +
                            ", which the elements do not resolve");
@@ -406,11 +423,12 @@ void Builder::add_supports() {
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Spring& spring = laws_.springs[i];
-    if (spring.at.node.empty() || initial_stiffness(spring) == 0.0) continue;
+    const bool stops = spring_laws_[i].give > 0.0;
+    if ((!stops && spring.at.node.empty()) || initial_stiffness(spring) == 0.0) continue;
+    const int node = stops ? node_of_stop(out_, model_, spring) : index_of(model_.nodes, spring.at.node);
     int to = spring.to ? index_of(model_.nodes, spring.to->node) : -1;
     if (spring_laws_[i].ground >= 0) to = spring_laws_[i].ground / 3;
-    NodeSpring& js = out_.node_springs.emplace_back(
-        node_spring(spring_laws_[i], index_of(model_.nodes, spring.at.node), to));
+    NodeSpring& js = out_.node_springs.emplace_back(node_spring(spring_laws_[i], node, to));
     js.touch = touch_of_spring(i);
     js.spring = static_cast<int>(i);
   }
@@ -604,7 +622,7 @@ void Builder::find_follower_ends(double load_scale) {
   for (const ElementPressure& p : pressures_) {
     const ElementDofs& dofs = out_.dofs[p.element];
     for (const auto& [node, half] : {std::pair{dofs.a, -0.5}, std::pair{dofs.b, 0.5}}) {
-      if (node[0] >= 3 * out_.nodes) continue;
+      if (node[0] >= 3 * out_.first_stop_node) continue;
       FollowerEnd& end = sums[node[0] / 3];
       end.proportional += half * p.proportional.at(0.5 + half) / load_scale;
       end.constant += half * p.constant.at(0.5 + half);
@@ -641,27 +659,6 @@ void Builder::set_metric() {
   }
 }
 
-void Builder::add_monitors() {
-  for (const Monitor& monitor : model_.monitors) {
-    Vec3 row{0.0, 0.0, 0.0};
-    double unit = out_.scales.length;
-    if (monitor.component == Component::x) row[0] = 1.0;
-    if (monitor.component == Component::y) row[1] = 1.0;
-    if (monitor.component == Component::rotation) {
-      row[2] = 1.0;
-      unit = 1.0;
-    }
-    if (monitor.component == Component::normal) {
-      const AxisCurve& axis = *out_.axes[index_of(model_.members, monitor.at.member)];
-      const double angle = axis.at(monitor.at.fraction * axis.length()).angle;
-      row = {-std::sin(angle), std::cos(angle), 0.0};
-    }
-    MonitorRow out{monitor.id, displacement_row(out_, model_, monitor.at, row)};
-    for (auto& [index, weight] : out.row.entries) weight *= unit;
-    out_.monitors.push_back(std::move(out));
-  }
-}
-
 }  // namespace
 
 ElementShape shape_of_element(const Structure& structure, const Model& model, int element) {
@@ -685,7 +682,7 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
   builder.add_supports();
   builder.add_loads(scales != nullptr ? std::optional(scales->load) : std::nullopt);
   builder.set_metric();
-  builder.add_monitors();
+  out.monitors = monitor_rows(out, model);
   builder.finish();
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
   out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||

@@ -97,8 +97,16 @@ struct Structure {
   int nodes = 0;
   /// First of the nodes that stand for moving ground: they follow those of the model, and are held.
   int first_ground = 0;
+  /// First of the nodes between elements of a member at which stops act; they follow those of the ground.
+  int first_stop_node = 0;
+  std::vector<int> stop_elements;  ///< element that begins at each of these nodes, ascending
+  /// First elements of the parts of members between nodes, ascending, and the number of elements.
+  std::vector<int> parts_between_nodes;
   /// Number of rotations of released member ends; their unknowns follow those of the nodes.
   int releases = 0;
+  int stops = 0;  ///< number of unknown forces of stops; they follow the released rotations
+  /// Number of unknowns before those of the first element.
+  [[nodiscard]] int before_elements() const { return 3 * nodes + releases + stops; }
   std::unique_ptr<const ElementSet> elements;
   std::vector<ElementDofs> dofs;      ///< one per element
   std::vector<NodeSupport> supports;  ///< one per node, those of the ground included
@@ -180,10 +188,16 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
 [[nodiscard]] SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at,
                                          std::array<double, 3> row);
 
-/// Displacement of a spring into its medium at a state, with its derivative by the unknowns.
+/// Rows that evaluate the monitors of a model. @pre the unknowns, axes and scales of the structure are set
+[[nodiscard]] std::vector<MonitorRow> monitor_rows(const Structure& structure, const Model& model);
+
+/// Displacement of a spring into its medium at a state, with its derivative by the unknowns, and its
+/// reaction.
 struct SpringReading {
   double displacement = 0.0;
   SparseRow row;
+  double force = 0.0;  ///< force on the structure, against `row`
+  double depth = 0.0;  ///< a one-sided spring acts where this distance is positive
 };
 /// @param index index among the springs of the model
 [[nodiscard]] SpringReading reading_of(const Structure& structure, const Model& model, std::size_t index,

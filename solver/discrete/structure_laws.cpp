@@ -4,20 +4,27 @@
 #include <cmath>
 #include <cstddef>
 
+#include "solver/discrete/stops.h"
 #include "solver/model/id_index.h"
 
 namespace snapthrough {
 namespace {
 
-/// Stiffness of members at their place, over which that of a stop stands: a stop gives way by 1e-8 of what
-/// the members do, and the rounding of displacements, 1e-16, leaves eight digits of its force.
+/// Stiffness of a stop over that of the members at its place: a stop gives way by 1e-8 of what the members
+/// do. Of the force of a stop that is a stiff spring the rounding of displacements, 1e-16, leaves eight
+/// digits.
 constexpr double kStopStiffness = 1e8;
 
-/// Stiffness of a spring that stands for a stop, scaled.
-double stop_stiffness(const Model& model, const Structure& structure, const Spring& spring,
-                      const SpringLaw& law) {
+/// Stiffness of the members at a stop against its displacement, scaled.
+struct StiffnessAtStop {
+  double axial = 0.0;
+  double bending = 0.0;
+};
+
+StiffnessAtStop stiffness_at_stop(const Model& model, const Structure& structure, const Spring& spring,
+                                  const SpringLaw& law) {
   const Scales& scales = structure.scales;
-  double sum = 0.0;
+  StiffnessAtStop sum;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const Member& member = model.members[m];
     if (spring.at.member.empty() ? member.start != spring.at.node && member.end != spring.at.node
@@ -32,9 +39,20 @@ double stop_stiffness(const Model& model, const Structure& structure, const Spri
     const double axial = section.EA.at(fraction) / (scales.force * length);
     const double angle = axis.angle_at(fraction * axis.length());
     const double along = law.row[0] * std::cos(angle) + law.row[1] * std::sin(angle);
-    sum += spring.direction ? along * along * axial + 12.0 * bending / (length * length) : 4.0 * bending;
+    sum.bending += spring.direction ? 12.0 * bending / (length * length) : 4.0 * bending;
+    if (spring.direction) sum.axial += along * along * axial;
   }
-  return kStopStiffness * (sum > 0.0 ? sum : 1.0);  // a node that rods alone reach
+  if (!(sum.bending > 0.0)) sum.bending = 1.0;  // a node that rods alone reach
+  return sum;
+}
+
+/// Sets the law of a spring that stands for a stop. A stop at a node has its force as an unknown.
+void set_stop(const Model& model, const Structure& structure, const Spring& spring, SpringLaw& law) {
+  const StiffnessAtStop members = stiffness_at_stop(model, structure, spring, law);
+  law.law.stiffness = kStopStiffness * (members.axial + members.bending);
+  if (!is_stop(spring) || node_of_stop(structure, model, spring) < 0) return;
+  law.give = 1.0 / law.law.stiffness;
+  law.law.stiffness = members.bending;
 }
 
 }  // namespace
@@ -50,8 +68,7 @@ void add_laws(const Model& members, const Model& supports, const Structure& stru
   for (const Spring& spring : supports.springs) {
     SpringLaw& law = springs.emplace_back(law_of(spring, structure.scales));
     law.ground = ground_under(spring);
-    if (!std::isfinite(law.law.stiffness))
-      law.law.stiffness = stop_stiffness(members, structure, spring, law);
+    if (!std::isfinite(law.law.stiffness)) set_stop(members, structure, spring, law);
   }
   for (const Foundation& foundation : supports.foundations) {
     foundations.push_back(law_of(foundation, structure.scales, structure.origin));
@@ -75,15 +92,21 @@ void bound_stiffness(const Model& model, Structure& structure) {
   const Mesh& mesh = structure.mesh;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const auto length_of = [&](int e) {
+      const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
+      return (cell.to - cell.from) * structure.axes[m]->length();
+    };
+    double longest = 0.0;
+    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) longest = std::max(longest, length_of(e));
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
-      const double length = (cell.to - cell.from) * structure.axes[m]->length();
       const double least = std::min(EI.at(cell.from), EI.at(cell.to));
-      const auto at_decay = [&](double lengths) {
-        return structure.scales.scaled_modulus(4.0 * least / std::pow(length / lengths, 4));
+      const auto at_decay = [&](double length) {
+        return structure.scales.scaled_modulus(4.0 * least / std::pow(length, 4));
       };
-      structure.stiffest.push_back(at_decay(mesh.decay_lengths));
-      structure.stiffest_rigid.push_back(at_decay(kResolvedDecays));
+      structure.stiffest.push_back(at_decay(length_of(e) / mesh.decay_lengths));
+      // a bed that were stiffer beside short elements would bend the member there
+      structure.stiffest_rigid.push_back(at_decay(longest / kResolvedDecays));
     }
   }
 }

@@ -13,7 +13,7 @@ namespace snapthrough {
 /// @brief Appends the scaled laws of a model's supports.
 /// @param members model whose members they support; @param supports the same model, or one with joined
 /// supports
-/// @pre scales, axes, origin and geometry of the structure are set
+/// @pre scales, axes, origin, geometry, mesh and nodes of the structure are set
 void add_laws(const Model& members, const Model& supports, const Structure& structure,
               std::vector<FoundationLaw>& foundations, std::vector<SpringLaw>& springs);
 

@@ -85,6 +85,28 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
   return out;
 }
 
+std::vector<MonitorRow> monitor_rows(const Structure& structure, const Model& model) {
+  std::vector<MonitorRow> out;
+  for (const Monitor& monitor : model.monitors) {
+    std::array<double, 3> row{0.0, 0.0, 0.0};
+    double unit = structure.scales.length;
+    if (monitor.component == Component::x) row[0] = 1.0;
+    if (monitor.component == Component::y) row[1] = 1.0;
+    if (monitor.component == Component::rotation) {
+      row[2] = 1.0;
+      unit = 1.0;
+    }
+    if (monitor.component == Component::normal) {
+      const AxisCurve& axis = *structure.axes[index_of(model.members, monitor.at.member)];
+      const double angle = axis.at(monitor.at.fraction * axis.length()).angle;
+      row = {-std::sin(angle), std::cos(angle), 0.0};
+    }
+    MonitorRow& reading = out.emplace_back(monitor.id, displacement_row(structure, model, monitor.at, row));
+    for (auto& [index, weight] : reading.row.entries) weight *= unit;
+  }
+  return out;
+}
+
 std::vector<FollowerForce> follower_forces_of(const Structure& structure, const Model& model) {
   std::vector<FollowerForce> out;
   for (const Load& load : model.loads) {
@@ -133,6 +155,14 @@ SpringReading reading_of(const Structure& structure, const Model& model, std::si
   if (const int ground = structure.spring_laws[index].ground; ground >= 0)
     for (int c = 0; c < 3; ++c) out.row.entries.emplace_back(ground + c, -row[c]);
   if (!spring.rod) out.displacement = out.row.dot(y);
+  const SpringLaw& law = structure.spring_laws[index];
+  out.depth = out.displacement - law.law.gap;
+  out.force = law.law.reaction(out.displacement);
+  if (law.force_unknown < 0) return out;
+  const double force = y[law.force_unknown];
+  out.depth += (1.0 / law.law.stiffness - law.give) * force;
+  out.force = out.depth > 0.0 ? force : 0.0;
+  if (out.depth > 0.0) out.displacement = law.law.gap + law.give * force;
   return out;
 }
 

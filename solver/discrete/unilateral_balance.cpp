@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "solver/discrete/places_on_axis.h"
 #include "solver/discrete/rigid_loads.h"
 #include "solver/numeric/dense.h"
 #include "solver/numeric/gauss_rule.h"
@@ -36,39 +37,11 @@ struct BalanceLimits {
   static constexpr double entered_share = 1e-3;
   static constexpr double least_entered = 1e-13;  ///< lower bound: rounding
   static constexpr double most_entered = 1e-8;    ///< upper bound
-  /// Samples of an axis per half turn, within which the displacement into a support has one or two maxima.
-  static constexpr double places_by_half_turn = 16.0;
-  static constexpr std::size_t places_by_knot = 4;  ///< samples per spline knot
-  /// Steps of a golden section search: to 1e-10 of the interval, where the maximum is exact to rounding.
-  static constexpr int golden_steps = 48;
 };
 
 void append(const VectorXd& column, MatrixXd& matrix) {
   matrix.conservativeResize(column.size(), matrix.cols() + 1);
   matrix.rightCols(1) = column;
-}
-/// Position of the maximum of a unimodal function on an interval (golden section search).
-template <class Function>
-double place_of_maximum(double lo, double hi, const Function& value) {
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  double left = hi - golden * (hi - lo);
-  double right = lo + golden * (hi - lo);
-  double at_left = value(left);
-  double at_right = value(right);
-  for (int step = 0; step < BalanceLimits::golden_steps; ++step) {
-    if (at_left > at_right) {
-      hi = std::exchange(right, left);
-      at_right = at_left;
-      left = hi - golden * (hi - lo);
-      at_left = value(left);
-    } else {
-      lo = std::exchange(left, right);
-      at_left = at_right;
-      right = lo + golden * (hi - lo);
-      at_right = value(right);
-    }
-  }
-  return 0.5 * (lo + hi);
 }
 
 }  // namespace
@@ -217,26 +190,12 @@ bool UnilateralBalance::add_entered(const Group& group, const VectorXd& motion, 
   const Index before = rows.cols();
   for (const CurvedSupport& support : group.curved) {
     const AxisCurve& axis = *motions_.parts().axes()[static_cast<std::size_t>(support.member)];
-    const double length = axis.length();
-    const auto [from, to] = support.range;
-    const double turns = axis.turning(from * length, to * length) / std::numbers::pi;
-    const auto places = static_cast<std::size_t>(BalanceLimits::places_by_half_turn * (1.0 + turns)) +
-                        BalanceLimits::places_by_knot * axis.knots().size();
-    const auto place = [&, from = from, to = to](std::size_t i) {
-      return from + (to - from) * static_cast<double>(i) / static_cast<double>(places);
-    };
     const auto entered = [&](double fraction) {
       const auto row = row_in(group, support, fraction);
       return row ? row->dot(motion) : 0.0;
     };
-    std::vector<double> values;
-    for (std::size_t i = 0; i <= places; ++i) values.push_back(entered(place(i)));
-    for (std::size_t i = 0; i <= places; ++i) {
-      if ((i > 0 && values[i - 1] > values[i]) || (i < places && values[i + 1] > values[i])) continue;
-      const double at = place_of_maximum(place(i > 0 ? i - 1 : 0), place(std::min(i + 1, places)), entered);
-      const double best = entered(at) > values[i] ? at : place(i);
-      if (entered(best) > tolerance) append(*row_in(group, support, best), rows);
-    }
+    for (const double at : places_of_maxima(axis, support.range, entered))
+      if (entered(at) > tolerance) append(*row_in(group, support, at), rows);
   }
   return rows.cols() > before;
 }

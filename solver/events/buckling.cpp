@@ -22,210 +22,204 @@ namespace snapthrough {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Limits of the eigenvalue search; loads are relative. Source: digits of the counts, docs/decisions/0001.
 struct BucklingLimits {
-  static constexpr double short_bracket = 1e-2;   ///< width at which iterations gain two digits each
-  static constexpr double narrow_bracket = 1e-4;  ///< width at which several loads count as a cluster
-  static constexpr int tries = 3;                 ///< shifts that draw_up() tries
-  static constexpr int iterations_per_try = 3;    ///< inverse iterations on each shift of draw_up()
-  static constexpr double below = 2e-3;           ///< distance of the shift below the load, see refine()
-  static constexpr double converged = 1e-13;  ///< change of a load at which inverse iteration ends: rounding
-  static constexpr int most_iterations = 60;  ///< inverse iterations at most
-  static constexpr double beside = 1e-9;      ///< distance from a load of the counts that confirm it
   static constexpr double held_share = 1e-3;  ///< digits of LinearBuckling::held_share
+  static constexpr double tolerance = 1e-14;  ///< relative error of loads that the iteration leaves
+  static constexpr double same = 1e-9;        ///< difference of a load from the Rayleigh quotient of its mode
+  /// Distances of counts that confirm a load by themselves: digits that rounding leaves to a load at least.
+  static constexpr std::array counted{1e-6, 1e-5};
+  static constexpr double farther = 1e-4;      ///< that of a count that confirms it with its quotient
+  static constexpr double near = 1e-4;         ///< difference of loads that are polished together
+  static constexpr double below_group = 1e-5;  ///< distance of the shift from the lowest of them
+  static constexpr double converged = 1e-13;   ///< change of a load at which inverse iteration ends: rounding
+  static constexpr int most_iterations = 60;   ///< inverse iterations at most
   /// Doublings of the first scale; beyond 1e13 times it the elastic stiffness is lost to rounding.
   static constexpr int doublings = 43;
+  /// Halvings of it: where the loads that grow press no member, rounding alone gives the scale.
+  static constexpr int halvings = 100;
 };
 
-using Pencil = BucklingPencil;
+/// Load factors by doublings of an estimate of the first buckling load.
+struct LoadRange {
+  double lowest = 0.0;   ///< no buckling load lies below, and one within twice this; 0: none was found
+  double largest = 0.0;  ///< last doubling
+};
 
-/// Short brackets of single eigenvalues and narrow brackets of clusters, ascending.
-std::vector<LoadBracket> isolated(Pencil& pencil, const LoadBracket& all, int wanted) {
-  std::vector<LoadBracket> out;
-  const auto take = [&](const LoadBracket& bracket) {
-    const bool single = bracket.is_single();
-    // a single wanted load may have a wide bracket, because no other load in it can be confused with it
-    const bool only = single && out.empty() && bracket.below_hi == wanted;
-    if (!only && bracket.hi - bracket.lo >
-                     (single ? BucklingLimits::short_bracket : BucklingLimits::narrow_bracket) * bracket.hi)
+/// Finds the doubling below the first buckling load. @param at_start inertia at zero
+LoadRange range_of_first(BucklingPencil& pencil, int at_start) {
+  double first = pencil.scale();
+  if (!std::isfinite(first) || first <= 0.0) first = 1.0;
+  first *= kOffMultiples;
+  LoadRange range{0.0, std::ldexp(first, BucklingLimits::doublings)};
+  double at = first;
+  if (pencil.factorise(at) != at_start) {
+    for (int i = 0; i < BucklingLimits::halvings && range.lowest == 0.0; ++i) {
+      at *= 0.5;
+      if (pencil.factorise(at) == at_start) range.lowest = at;
+    }
+    return range;
+  }
+  for (int i = 0; i < BucklingLimits::doublings && range.lowest == 0.0; ++i) {
+    at *= 2.0;
+    if (pencil.factorise(at) != at_start) range.lowest = 0.5 * at;
+  }
+  return range;
+}
+
+/// Whether the Rayleigh quotient of each mode is its load.
+bool have_their_quotients(BucklingPencil& pencil, const VectorXd& loads, const MatrixXd& modes) {
+  for (Index i = 0; i < loads.size(); ++i)
+    if (!(std::abs(pencil.quotient(modes.col(i)) - loads[i]) <= BucklingLimits::same * loads[i]))
       return false;
-    // eigenvalues in adjacent brackets form one cluster
-    if (!out.empty() && out.back().hi == bracket.lo) {
-      out.back().hi = bracket.hi;
-      out.back().below_hi = bracket.below_hi;
-    } else {
-      out.push_back(bracket);
+  return true;
+}
+
+/// Block inverse iteration with Rayleigh-Ritz on the span of y = J(shift)^-1 G x: (y^T G x) c = (shift -
+/// lambda) (y^T G y) c. It evaluates no energies of J_0, which have lost digits where parts of a structure
+/// are stiffer than others by 1e14.
+/// @param loads, modes the loads next to the shift, to begin with; overwritten
+/// @return whether the loads have converged
+bool iterate(BucklingPencil& pencil, double shift, Eigen::Ref<VectorXd> loads, Eigen::Ref<MatrixXd> modes) {
+  pencil.factorise(shift);
+  for (int n = 0; n < BucklingLimits::most_iterations; ++n) {
+    const MatrixXd forces = pencil.geometric(modes);
+    const MatrixXd y = pencil.response(forces);
+    const RealEigen found =
+        real_eigen(solve_row_pivoting(y.transpose() * forces, y.transpose() * pencil.geometric(y)));
+    VectorXd next = (shift - found.values.array().inverse()).matrix();
+    std::vector<Index> order(static_cast<std::size_t>(next.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::sort(order.begin(), order.end(), [&next](Index a, Index b) { return next[a] < next[b]; });
+    const VectorXd before = loads;
+    for (Index i = 0; i < loads.size(); ++i) {
+      loads[i] = next[order[static_cast<std::size_t>(i)]];
+      const VectorXd mode = y * found.vectors.col(order[static_cast<std::size_t>(i)]);
+      modes.col(i) = mode / mode.lpNorm<Eigen::Infinity>();
     }
-    return true;
-  };
-  isolate_loads(
-      all, wanted, [&](double load) { return pencil.count(load); }, take);
-  return out;
-}
-
-struct EigenPair {
-  double load = 0.0;
-  VectorXd mode;
-};
-
-/// Rayleigh-Ritz on the span of y, where J(shift) y_j = b_j: (y^T b) c = (shift - lambda) (y^T G y) c.
-std::vector<EigenPair> ritz(Pencil& pencil, double shift, const std::vector<VectorXd>& y,
-                            const std::vector<VectorXd>& b) {
-  const auto m = static_cast<Index>(y.size());
-  Eigen::MatrixXd left(m, m);
-  Eigen::MatrixXd right(m, m);
-  for (Index j = 0; j < m; ++j) {
-    const VectorXd gy = pencil.geometric(y[j]);
-    for (Index i = 0; i < m; ++i) {
-      left(i, j) = y[i].dot(b[j]);
-      right(i, j) = y[i].dot(gy);
-    }
-  }
-  const RealEigen found = real_eigen(solve_row_pivoting(left, right));
-  std::vector<EigenPair> pairs;
-  for (Index k = 0; k < m; ++k) {
-    VectorXd mode = VectorXd::Zero(y[0].size());
-    for (Index j = 0; j < m; ++j) mode += found.vectors(j, k) * y[j];
-    pairs.push_back({shift - 1.0 / found.values[k], mode / mode.lpNorm<Eigen::Infinity>()});
-  }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const EigenPair& l, const EigenPair& r) { return l.load < r.load; });
-  return pairs;
-}
-
-/// One step of block inverse iteration with the current factors. @return largest relative change of a load
-double iterate(Pencil& pencil, double shift, std::vector<EigenPair>& pairs) {
-  std::vector<VectorXd> b;
-  std::vector<VectorXd> y;
-  for (const EigenPair& pair : pairs) {
-    b.push_back(pencil.geometric(pair.mode));
-    y.push_back(b.back());
-    pencil.solve(y.back());
-  }
-  auto next = ritz(pencil, shift, y, b);
-  double change = 0.0;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    change = std::max(change, std::abs(next[i].load / pairs[i].load - 1.0));
-  pairs = std::move(next);
-  return change;
-}
-
-/// Raises the lower end of a wide bracket of one load to 0.2 % below an estimate by inverse iteration, and
-/// confirms the new end by an inertia count. True: confirmed, and the pencil is factorised there.
-bool draw_up(Pencil& pencil, LoadBracket& bracket, std::vector<EigenPair>& pairs) {
-  for (int i = 0; i < BucklingLimits::tries; ++i) {
-    if (pencil.count(bracket.lo) != bracket.below_lo) return false;
-    for (int k = 0; k < BucklingLimits::iterations_per_try; ++k) iterate(pencil, bracket.lo, pairs);
-    const double load = pairs[0].load;
-    if (!(load > bracket.lo && load < bracket.hi)) return false;  // another load is nearer to the shift
-    const double shift = load * (1.0 - BucklingLimits::below);
-    if (shift <= bracket.lo) return pencil.count(bracket.lo) == bracket.below_lo;
-    if (pencil.count(shift) == bracket.below_lo) {
-      bracket.lo = shift;
+    if (!loads.allFinite() || !modes.allFinite()) return false;
+    if (((loads - before).cwiseAbs().array() <= BucklingLimits::converged * loads.cwiseAbs().array()).all())
       return true;
-    }
-    bracket.hi = shift;
   }
   return false;
 }
 
-/// Bisects a bracket of one load until it is short enough for inverse iteration.
-void narrow(Pencil& pencil, LoadBracket& bracket) {
-  while (bracket.hi - bracket.lo > BucklingLimits::short_bracket * bracket.hi) {
-    const double middle = 0.5 * (bracket.lo + bracket.hi);
-    (pencil.count(middle) > bracket.below_lo ? bracket.hi : bracket.lo) = middle;
+/// Brings approximate loads to rounding, each group of near ones with a shift below it: other loads, of the
+/// opposite sense too, may be nearer to a shift that is the same for all.
+/// @return whether each load has converged next to where it was
+bool polish(BucklingPencil& pencil, VectorXd& loads, MatrixXd& modes) {
+  for (Index first = 0; first < loads.size();) {
+    Index end = first + 1;
+    while (end < loads.size() && loads[end] - loads[end - 1] <= BucklingLimits::near * loads[end]) ++end;
+    const VectorXd before = loads.segment(first, end - first);
+    const double shift = (1.0 - BucklingLimits::below_group) * before[0];
+    if (!iterate(pencil, shift, loads.segment(first, end - first), modes.middleCols(first, end - first)))
+      return false;
+    if (!(loads.segment(first, end - first) - before).isZero(BucklingLimits::near * before[0])) return false;
+    first = end;
   }
+  return true;
 }
 
-/// Number of vectors for the lowest `wanted` eigenvalues of a cluster: the whole cluster if small, else min(2
-/// wanted, wanted + 8) as usual for subspace iteration (Bathe, Finite Element Procedures, 11.6). Shear
-/// buckling gives clusters of one mode per element.
-int block_size(const LoadBracket& bracket, int wanted) {
-  return std::min(bracket.below_hi - bracket.below_lo, std::min(2 * wanted, wanted + 8));
+/// Brings loads to rounding; together, by the shift of the search, where they are too far from it for
+/// polish().
+bool settle(BucklingPencil& pencil, double shift, VectorXd& loads, MatrixXd& modes) {
+  VectorXd polished = loads;
+  MatrixXd motions = modes;
+  if (!polish(pencil, polished, motions)) return iterate(pencil, shift, loads, modes);
+  loads = std::move(polished);
+  modes = std::move(motions);
+  return true;
 }
 
-/// Block inverse iteration on one bracket.
-/// @param wanted number of eigenvalues asked for
-/// @return the lowest eigenvalues of the bracket, ascending, with their vectors
-std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, int wanted, Index size) {
-  const int m = block_size(bracket, wanted);
-  std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
-  for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
-  if (m == 1 && bracket.hi - bracket.lo > BucklingLimits::short_bracket * bracket.hi) {
-    if (draw_up(pencil, bracket, pairs)) {
-      for (int it = 0; it < BucklingLimits::most_iterations; ++it)
-        if (iterate(pencil, bracket.lo, pairs) <= BucklingLimits::converged) break;
-      return pairs;
-    }
-    narrow(pencil, bracket);
-    pairs[0] = {bracket.hi, pseudo_random(size, 1U)};
+/// Whether inertia counts on both sides of each group of equal loads agree with the list of loads.
+/// @param below inertia below the loads
+/// @param distance of the counts from the loads; loads within it are equal
+bool are_counted(BucklingPencil& pencil, const VectorXd& loads, int below, double distance) {
+  const Index count = loads.size();
+  for (Index first = 0; first < count;) {
+    Index end = first + 1;
+    while (end < count && loads[end] - loads[end - 1] <= 2.0 * distance * loads[end]) ++end;
+    if (pencil.factorise((1.0 - distance) * loads[first]) != below + static_cast<int>(first)) return false;
+    const int beyond = pencil.factorise((1.0 + distance) * loads[end - 1]) - below;
+    // the last of several equal loads may be beyond those that are asked for
+    if (beyond < static_cast<int>(end) || (end < count && beyond > static_cast<int>(end))) return false;
+    first = end;
   }
-  // Shift below the bracket, where elimination is accurate even if parts of the structure buckle at the
-  // bracket's load, if no other eigenvalue lies between; else a shift inside the bracket that bisection did
-  // not use.
-  double shift = bracket.lo - BucklingLimits::below * bracket.hi;
-  if (pencil.count(shift) != bracket.below_lo) {
-    shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
-    static_cast<void>(pencil.count(shift));  // factorises at the shift
-  }
-  for (int it = 0; it < BucklingLimits::most_iterations; ++it)
-    if (iterate(pencil, shift, pairs) <= BucklingLimits::converged && it > 0) break;
-  return pairs;
+  return count > 0;
 }
 
-/// Checks each load of a bracket by inertia counts on both sides. If they disagree, the load is kept where
-/// the whole cluster was iterated and the Rayleigh quotient of its mode confirms it (counts lose digits next
-/// to a double load); otherwise the load is located by bisection of the counts.
-void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
-  const bool whole = static_cast<int>(pairs.size()) == bracket.below_hi - bracket.below_lo;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const int below = bracket.below_lo + static_cast<int>(i);
-    const double load = pairs[i].load;
-    const bool right = load > 0.0 && pencil.count(load * (1.0 - BucklingLimits::beside)) <= below &&
-                       pencil.count(load * (1.0 + BucklingLimits::beside)) > below;
-    const auto exact = [&] {
-      return whole && load >= bracket.lo && load <= bracket.hi &&
-             std::abs(pencil.quotient(pairs[i].mode) - load) <= BucklingLimits::beside * load;
-    };
-    if (!right && !exact())
-      pairs[i].load = bisect(bracket.lo, bracket.hi, BucklingLimits::converged * bracket.hi,
-                             [&](double at) { return pencil.count(at) > below; });
-  }
+/// Confirms loads by counts where the search could not: next to a load at which elements alone buckle, counts
+/// lose their digits, and where parts are stiffer than others by 1e14, quotients do.
+bool are_confirmed(BucklingPencil& pencil, const VectorXd& loads, const MatrixXd& modes, int below) {
+  const auto counted_at = [&](double distance) { return are_counted(pencil, loads, below, distance); };
+  return std::ranges::any_of(BucklingLimits::counted, counted_at) ||
+         (have_their_quotients(pencil, loads, modes) && counted_at(BucklingLimits::farther));
 }
 
-/// Bracket from zero to a load factor with at least `count` eigenvalues below it; empty when there is none.
-LoadBracket enclose(Pencil& pencil, int count, int at_start) {
-  LoadBracket bracket{0.0, 0.0, at_start, at_start};
-  double hi = pencil.scale();
-  if (!std::isfinite(hi) || hi <= 0.0) hi = 1.0;
-  hi *= kOffMultiples;
-  for (int i = 0; i < BucklingLimits::doublings && bracket.below_hi - at_start < count; ++i) {
-    bracket.hi = hi;
-    bracket.below_hi = pencil.count(hi);
-    hi *= 2.0;
+/// Appends the lowest `count` loads above a shift, which share their powers of ten with the lowest of them:
+/// (J(load) - J(shift))^-1 loses what lies further away.
+/// @param shift below the loads, with the inertia there
+/// @param bounds loads beyond are rounding
+/// @return whether the loads are confirmed
+bool find_band(BucklingPencil& pencil, Shift shift, int count, const LoadRange& bounds,
+               KrylovColumns& columns, LinearBuckling& out) {
+  const double from = shift.at;
+  pencil.factorise(from);
+  EigenSearch search;
+  search.count = count;
+  search.tolerance = BucklingLimits::tolerance;
+  const Eigenpairs found = lowest_eigenpairs(pencil, shift, search, columns);
+  VectorXd loads(static_cast<Index>(found.values.size()));
+  for (Index i = 0; i < loads.size(); ++i) loads[i] = found.values[static_cast<std::size_t>(i)].real();
+  MatrixXd modes = found.vectors;
+  bool are_loads = found.complete && found.converged;
+  if (loads.size() > 0 && !have_their_quotients(pencil, loads, modes))
+    are_loads = settle(pencil, shift.at, loads, modes) && have_their_quotients(pencil, loads, modes) &&
+                are_counted(pencil, loads, shift.below, BucklingLimits::same);
+  are_loads = are_loads || are_confirmed(pencil, loads, modes, shift.below);
+  for (Index i = 0; i < loads.size(); ++i) {
+    if (!(loads[i] > from && loads[i] < bounds.largest)) continue;
+    out.loads.push_back(loads[i]);
+    out.modes.push_back(modes.col(i) / modes.col(i).lpNorm<Eigen::Infinity>());
   }
-  return bracket;
+  return are_loads;
+}
+
+/// Last doubling of a load factor with the same inertia; empty where a load lies within the first one.
+std::optional<double> last_with(BucklingPencil& pencil, int inertia, double from, double largest) {
+  for (double at = from; at < largest; at *= 2.0)
+    if (pencil.factorise(at) != inertia) return at > from ? std::optional(0.5 * at) : std::nullopt;
+  return std::nullopt;
 }
 
 /// The lowest `count` loads of the pencil with its present contact.
-void find_loads(Pencil& pencil, Index size, int count, LinearBuckling& out) {
+void find_loads(BucklingPencil& pencil, int count, LinearBuckling& out) {
   out.loads.clear();
   out.modes.clear();
-  out.negative_at_start = pencil.count(0.0);
-  const LoadBracket all = enclose(pencil, count, out.negative_at_start);
-  for (LoadBracket& bracket : isolated(pencil, all, out.negative_at_start + count)) {
-    const int wanted = count - static_cast<int>(out.loads.size());
-    auto pairs = refine(pencil, bracket, wanted, size);
-    confirm(pencil, bracket, pairs);
-    for (EigenPair& pair : pairs) {
-      if (static_cast<int>(out.loads.size()) == count) break;
-      if (!pair.mode.allFinite()) continue;  // spurious count by rounding: the mesh has no such mode
-      out.loads.push_back(pair.load);
-      out.modes.push_back(std::move(pair.mode));
-    }
-  }
+  out.negative_at_start = pencil.factorise(0.0);
+  pencil.set_stable_at_start(out.negative_at_start == 0);
+  const LoadRange range = range_of_first(pencil, out.negative_at_start);
+  if (range.lowest == 0.0) return;
+  KrylovColumns columns;
+  const auto all = [&out] { return static_cast<int>(out.loads.size()); };
+  const auto is_last = [&] {
+    return all() >= count || pencil.factorise(range.largest) == out.negative_at_start + all();
+  };
+  std::optional<double> from = range.lowest;
+  do {
+    const int before = all();
+    out.complete =
+        find_band(pencil, {*from, out.negative_at_start + before}, count - before, range, columns, out);
+    if (is_last()) return;
+    out.complete = out.complete && all() > before;
+    if (!out.complete || out.negative_at_start > 0) return;
+    from = last_with(pencil, out.negative_at_start + all(), kOffMultiples * out.loads.back(), range.largest);
+  } while (from);
+  out.complete = false;
 }
 
 /// Largest compression of each member at the Gauss points and the ends of its elements.
@@ -256,11 +250,11 @@ double held_share(StructuralProblem& problem, double load, int& factorizations) 
                 [&](double share) { return !linear_contact(problem, share * load, factorizations); });
 }
 
-PieceSolver solver_of(Pencil& pencil, Index size) {
+PieceSolver solver_of(BucklingPencil& pencil) {
   PieceSolver solver;
-  solver.lowest = [&pencil, size]() -> std::optional<Piece> {
+  solver.lowest = [&pencil]() -> std::optional<Piece> {
     LinearBuckling found;
-    find_loads(pencil, size, 1, found);
+    find_loads(pencil, 1, found);
     if (found.loads.empty() || found.negative_at_start > 0) return std::nullopt;
     return Piece{found.loads.front(), std::move(found.modes.front())};
   };
@@ -273,7 +267,7 @@ PieceSolver solver_of(Pencil& pencil, Index size) {
 LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem, int count,
                                double reference, const VectorXd& near, LoadSense sense) {
   LinearBuckling out;
-  Pencil pencil(structure, problem, sense);
+  BucklingPencil pencil(structure, problem, sense);
   if (!pencil.set_prestress(reference)) {
     out.factorizations = pencil.factorizations();
     out.held_share = held_share(problem, reference, out.factorizations);
@@ -285,24 +279,29 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   if (out.is_mechanism) return out;
   const TouchingMarks& marks = pencil.marks();
   out.touches = structure.one_sided && structure.free_motions.cols() == 0 && has_any(marks);
-  if (out.touches)
-    out.piece = set_least_piece(problem, solver_of(pencil, problem.size()), marks, near, pencil.contact());
-  find_loads(pencil, problem.size(), count, out);
+  if (out.touches) out.piece = set_least_piece(problem, solver_of(pencil), marks, near, pencil.contact());
+  find_loads(pencil, count, out);
   for (const double load : out.loads)
     out.compressions.push_back(compressions_of(structure, pencil.stress(load)));
+  if (!structure.curves.empty() && !out.loads.empty()) out.prestress = pencil.stress(out.loads.front());
   out.factorizations = pencil.factorizations();
   out.marks = marks;
   out.contact = std::move(pencil.contact());
   return out;
 }
 
-std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda, int& factorizations) {
+std::optional<VectorXd> small_displacement_state(StructuralProblem& problem, double lambda,
+                                                 int& factorizations) {
   const PathMetric metric{&problem.metric(), 0.0};
   Workspace work;
   problem.set_holds(held_softly(problem));
   const auto state = find_contact_state(problem, metric, lambda, work, factorizations, nullptr, true);
-  if (!state) return std::nullopt;
-  return problem.frozen_contact(state->y, true);
+  return state ? std::optional(state->y) : std::nullopt;
+}
+
+std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda, int& factorizations) {
+  const auto state = small_displacement_state(problem, lambda, factorizations);
+  return state ? std::optional(problem.frozen_contact(*state, true)) : std::nullopt;
 }
 
 }  // namespace snapthrough

@@ -21,6 +21,8 @@ struct LinearBuckling {
   std::vector<Eigen::VectorXd> modes;  ///< modes in the problem's unknowns, largest displacement one
   /// For each load the largest compression of each member in the linear prestress, scaled; negative: tension.
   std::vector<std::vector<double>> compressions;
+  /// Prestress under the first load, as unknowns; empty unless some law has a curve.
+  Eigen::VectorXd prestress;
   int negative_at_start = 0;  ///< negative eigenvalues under the constant actions alone
   SharedHolds holds;          ///< artificial springs on motions without stiffness
   /// A free motion is driven by the actions or resisted by their stresses alone, so that no linear reference
@@ -29,6 +31,9 @@ struct LinearBuckling {
   /// Largest share of the reference load with an equilibrium of small displacements, to three digits; empty:
   /// the reference load has one. Otherwise `loads` is empty.
   std::optional<double> held_share;
+  /// Inertia counts confirm that `loads` are the lowest and, where they are fewer than asked for, all below
+  /// the largest load factor that the digits of the tangent resolve.
+  bool complete = true;
   int factorizations = 0;
   bool touches = false;   ///< some one-sided supports touch without pressure under the reference load
   LeastPiece piece;       ///< stability result of the touching supports
@@ -39,12 +44,11 @@ struct LinearBuckling {
 
 /// @brief The lowest `count` buckling loads of a structure.
 ///
-/// Inertia counts isolate each eigenvalue or cluster, so that none is missed; block inverse iteration with
-/// Rayleigh-Ritz gives loads and modes. One-sided supports are bilateral where they are pressed at the linear
-/// equilibrium under `reference`, and absent elsewhere. Supports that touch without pressure act in the
-/// combination that becomes unstable first (set_least_piece()): the first load is the critical one, the
-/// others belong to that combination. If nothing else restrains the structure, touching supports are
-/// bilateral.
+/// lowest_eigenpairs() of the pencil from a load factor below the first one, which inertia counts find.
+/// One-sided supports are bilateral where they are pressed at the linear equilibrium under `reference`, and
+/// absent elsewhere. Supports that touch without pressure act in the combination that becomes unstable first
+/// (set_least_piece()): the first load is the critical one, the others belong to that combination. If nothing
+/// else restrains the structure, touching supports are bilateral.
 /// @param structure with nonlinear geometry
 /// @param reference scaled load factor of the reference load
 /// @param near first mode on a coarser mesh, for supports that touch without pressure; empty: unknown
@@ -53,6 +57,14 @@ struct LinearBuckling {
 [[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
                                              int count, double reference, const Eigen::VectorXd& near = {},
                                              LoadSense sense = LoadSense::as_given);
+
+/// @brief Small-displacement equilibrium under a load factor, to five digits.
+/// @param problem its holds are overwritten
+/// @param lambda scaled load factor
+/// @param factorizations incremented by the number of factorisations
+/// @return empty when no such equilibrium was found
+[[nodiscard]] std::optional<Eigen::VectorXd> small_displacement_state(StructuralProblem& problem,
+                                                                      double lambda, int& factorizations);
 
 /// @brief Contact of one-sided supports (pressed or touching) at the small-displacement equilibrium under a
 /// load factor.

@@ -1,14 +1,17 @@
 #include "solver/events/buckling_pencil.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
 
 namespace snapthrough {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -75,41 +78,68 @@ bool BucklingPencil::holds_are_idle(double lambda) {
   return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
 }
 
-/// Solves for the equilibrium under both kinds of actions with unilateral contact, from the bilateral
-/// response, and stores its contact; false when it was not found.
-bool BucklingPencil::freeze_contact(double reference) {
+/// Equilibrium with small displacements under the constant actions and a load factor, with unilateral contact
+/// and laws as they are, from the bilateral response; empty when it was not found.
+std::optional<VectorXd> BucklingPencil::state_at(double load) {
   Regime glued;
   glued.contact = Regime::Contact::bilateral;
   VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0, glued) +
-               linear_response(StructuralProblem::Stage::proportional, reference, glued);
+               linear_response(StructuralProblem::Stage::proportional, load, glued);
   const PathMetric metric{&structure_.metric, 0.0};
   const double size = metric.norm(y, 0.0);
-  if (size > 0.0) {
-    CorrectorOptions options;
-    options.max_iterations = 60;
-    options.largest_correction = std::numeric_limits<double>::infinity();
-    options.regime.small_displacements = true;
-    Workspace work;
-    double lambda = reference;
-    const CorrectorOutcome outcome = correct(problem_, metric, {}, size, options, y, lambda, work);
+  if (!(size > 0.0)) return y;
+  CorrectorOptions options;
+  options.max_iterations = 60;
+  options.largest_correction = std::numeric_limits<double>::infinity();
+  options.regime.small_displacements = true;
+  Workspace work;
+  double lambda = load;
+  const auto converges = [&](double scale) {
+    const CorrectorOutcome outcome = correct(problem_, metric, {}, scale, options, y, lambda, work);
     factorizations_ += outcome.factorisations;
-    if (outcome.status != CorrectorStatus::converged) {
-      const auto state =
-          find_contact_state(problem_, metric, reference, work, factorizations_, nullptr, true);
-      if (!state) return false;
-      y = state->y;
-    }
+    return outcome.status == CorrectorStatus::converged;
+  };
+  if (converges(size)) return y;
+  const auto state = find_contact_state(problem_, metric, load, work, factorizations_, nullptr, true);
+  if (!state) return std::nullopt;
+  y = state->y;
+  // the state is exact to five digits, which is enough for its contact
+  if (!structure_.curved() || converges(metric.norm(y, 0.0))) return y;
+  return state->y;
+}
+
+/// Stores the contact of the state under the reference load; false when there is none.
+bool BucklingPencil::freeze_contact(double load) {
+  const std::optional<VectorXd> y = state_at(load);
+  if (!y) return false;
+  contact_ = problem_.frozen_contact(*y, true);
+  if (structure_.curved()) contact_.linearised_at = *y;
+  marks_ = problem_.marks_at(*y, true);
+  return true;
+}
+
+/// Sets the stresses of both kinds of actions where laws have a curve: those of the state under the reference
+/// load are the sum, so that reactions on a plateau count. False when the constant actions have no state.
+bool BucklingPencil::set_curved_prestress(double load) {
+  constant_ = VectorXd::Zero(problem_.size());
+  if (structure_.has_constant) {
+    const std::optional<VectorXd> alone = state_at(0.0);
+    if (!alone) return false;
+    constant_ = *alone;
   }
-  contact_ = problem_.frozen_contact(y, true);
-  if (structure_.curved()) contact_.linearised_at = y;
-  marks_ = problem_.marks_at(y, true);
+  // the stored state is that of soft holds on motions without stiffness
+  const std::optional<VectorXd> loaded = holds_ ? state_at(load) : contact_.linearised_at;
+  if (!loaded) return false;
+  proportional_ = (*loaded - constant_) / load;
+  drop_rounding(problem_.least_force(), proportional_);
   return true;
 }
 
 bool BucklingPencil::set_prestress(double reference) {
   const SharedHolds soft = held_softly(problem_);
   problem_.set_holds(soft);
-  if ((structure_.one_sided || structure_.curved()) && !freeze_contact(reference)) return false;
+  const double load = sense_ * reference;
+  if ((structure_.one_sided || structure_.curved()) && !freeze_contact(load)) return false;
   if (soft) {
     Regime small = regime();
     small.small_displacements = true;
@@ -117,6 +147,7 @@ bool BucklingPencil::set_prestress(double reference) {
     ++factorizations_;
     problem_.set_holds(holds_);
   }
+  if (!structure_.curves.empty()) return set_curved_prestress(load);
   constant_ = linear_response(StructuralProblem::Stage::constant, 1.0, regime());
   proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0, regime());
   return true;
@@ -131,12 +162,64 @@ VectorXd BucklingPencil::stress(double lambda) const {
   return y;
 }
 
-int BucklingPencil::count(double lambda) {
+int BucklingPencil::factorise(double lambda) {
   VectorXd residual;
   ++factorizations_;
+  factorised_ = lambda;
   return problem_.linearise(stress(lambda), sense_ * lambda, residual, regime_at(lambda)).negative;
 }
 
-VectorXd BucklingPencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
+void BucklingPencil::to_global(MatrixXd& rows) const {
+  for (int j = 0; j < structure_.nodes; ++j) {
+    const double angle = structure_.supports[j].angle;
+    if (angle == 0.0) continue;
+    const Eigen::Rotation2Dd turn(angle);
+    rows.middleRows(3 * j, 2) = turn.toRotationMatrix() * rows.middleRows(3 * j, 2);
+  }
+}
+
+MatrixXd BucklingPencil::weighted(const MatrixXd& x) {
+  MatrixXd out = is_stable_at_start_ ? products(0.0, x)
+                                     : problem_.tangent_products(VectorXd::Zero(x.rows()), 0.0, x, regime());
+  to_global(out);
+  return out;
+}
+
+MatrixXd BucklingPencil::apply(const MatrixXd& x, const MatrixXd& weighted) {
+  MatrixXd forces = products(factorised_, x);
+  to_global(forces);
+  if (is_stable_at_start_) {
+    forces = (weighted - forces) / factorised_;
+  } else {
+    MatrixXd at_start = products(0.0, x);
+    to_global(at_start);
+    forces = (at_start - forces) / factorised_;
+  }
+  return response(std::move(forces));
+}
+
+MatrixXd BucklingPencil::response(MatrixXd forces) {
+  problem_.to_rows(forces);
+  problem_.solve(forces);
+  return forces;
+}
+
+MatrixXd BucklingPencil::works(const MatrixXd& x) {
+  MatrixXd forces = products(0.0, x);
+  to_global(forces);
+  return x.transpose() * forces;
+}
+
+MatrixXd BucklingPencil::geometric(const MatrixXd& x) {
+  MatrixXd out = products(1.0, x) - products(0.0, x);
+  to_global(out);
+  return out;
+}
+
+double BucklingPencil::quotient(const VectorXd& x) {
+  const VectorXd elastic = products(0.0, x);
+  const VectorXd geometric = products(1.0, x) - elastic;
+  return -problem_.work(elastic, x) / problem_.work(geometric, x);
+}
 
 }  // namespace snapthrough

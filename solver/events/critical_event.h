@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "solver/path/path_point.h"
@@ -16,9 +17,10 @@ struct CriticalEvent {
   CriticalType type = CriticalType::bifurcation;
   CriticalCause cause = CriticalCause::smooth;
   PathPoint point;
-  int negative_before = 0;  ///< negative eigenvalues on the side that the path comes from
-  int negative_after = 0;   ///< negative eigenvalues beyond
-  int multiplicity = 1;     ///< eigenvalues that vanish at the point
+  int negative_before = 0;    ///< negative eigenvalues on the side that the path comes from
+  int negative_after = 0;     ///< negative eigenvalues beyond
+  int multiplicity = 1;       ///< eigenvalues that vanish at the point
+  bool after_growth = false;  ///< vibrations grow from an earlier point of the path on
   /// Null vectors, columns: the motion that loses its stiffness at the point, where it is known, then motions
   /// that lose it close by.
   Eigen::MatrixXd null;
@@ -29,10 +31,16 @@ struct CriticalEvent {
   double bracket_loads[2] = {};  ///< scaled load factors at the ends of the final bracket
 };
 
+/// @brief Whether vibrations begin to grow at a point, where the inertia of the tangent tells nothing.
+template <class Critical>
+[[nodiscard]] bool grows_from(const Critical& point) {
+  return point.type == CriticalType::flutter || point.cause == CriticalCause::massless;
+}
+
 /// @brief Whether a stable path loses stability at a point that it meets.
 [[nodiscard]] inline bool is_loss(const CriticalEvent& event) {
-  return event.type != CriticalType::broken_bifurcation && event.negative_before == 0 &&
-         (event.negative_after > 0 || event.type == CriticalType::flutter);
+  return event.type != CriticalType::broken_bifurcation && !event.after_growth &&
+         event.negative_before == 0 && (event.negative_after > 0 || grows_from(event));
 }
 
 /// How exactly critical points are located.
@@ -41,6 +49,9 @@ struct LocateOptions {
   /// Largest imperfection of a bifurcation that counts as perfect: above what rounding of the nodes'
   /// coordinates or a mesh makes, below what can be built.
   double perfect = 1e-8;
+  /// Largest distance of the last point before a kink from the end of the step that led round it, over the
+  /// displacement there, at which a change of inertia may be put at that point.
+  double before_kink = std::numeric_limits<double>::infinity();
 };
 
 /// What was found on one step.

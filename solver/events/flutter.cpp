@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/discrete/follower_parts.h"
 #include "solver/events/damped_motions.h"
 #include "solver/path/segment.h"
 
@@ -25,7 +26,14 @@ struct FlutterLimits {
   /// larger end where the sign changes), beyond which the step is halved.
   static constexpr double bend = 0.1;
   static constexpr double straight = 1e-3;  ///< such a distance over the magnitude that needs no halving
-  static constexpr int halvings = 5;        ///< a step that needs more of them is too long
+  /// A step that needs more halvings is too long. Two sides of a place at which a support begins to act are
+  /// bisected down to the shortest piece, by some 40.
+  static constexpr int halvings = 64;
+  static constexpr Eigen::Index forces = 4;  ///< combinations of the forces of a part, see follower_parts()
+  /// Where supports touch without pressure as a step begins, its first share, which is left out.
+  static constexpr double beginning = 1e-3;
+  /// Fall of a function on a bracket of flutter over its fall on the step, beyond which the function jumps.
+  static constexpr double jump = 0.5;
   static constexpr double shortest = 1e-6;  ///< length of a step that is not halved, over its load
   static constexpr int places = 4;          ///< pieces of a step at whose ends divergence_on_step() looks
 };
@@ -127,68 +135,116 @@ auto closed_by_load(double tolerance) {
 
 }  // namespace
 
-FlutterSearch::FlutterSearch(const Structure& structure, const Model& model)
+FlutterSearch::FlutterSearch(const Structure& structure, const Model& model, StructuralProblem::Stage stage)
     : problem_(structure), structure_(structure), model_(model), masses_(make_mass_matrix(structure, model)) {
-  search_.count = FlutterLimits::tracked;
-  search_.tolerance = FlutterLimits::tolerance;
-  search_.counted = false;
-  left_ = search_;
+  problem_.set_stage(stage);
+  for (Eigen::MatrixXd& forces : follower_parts(structure, FlutterLimits::forces)) {
+    Part& part = parts_.emplace_back();
+    part.search.count = FlutterLimits::tracked;
+    part.search.tolerance = FlutterLimits::tolerance;
+    part.search.counted = false;
+    part.search.forces = std::move(forces);
+    part.left = part.search;
+  }
+  if (has_massless_elements(masses_)) massless_.emplace(structure, masses_, stage);
 }
 
-FlutterSearch::Sample FlutterSearch::sample(const PathPoint& point) {
-  Sample out{
-      point, natural_motions(structure_, problem_, masses_, point.y, point.lambda, search_, columns_), 0, {}};
-  search_.begin_with(out.motions);
+FlutterSearch::Sample FlutterSearch::sample(Part& part, const PathPoint& point) {
+  Sample out{point,
+             natural_motions(structure_, problem_, masses_, point.y, point.lambda, part.search, columns_),
+             0,
+             {}};
+  part.search.begin_with(out.motions);
   out.pairs = pairs_in(out.motions.squares);
   if (!is_damped(model_.damping)) return out;
   problem_.set_transposed(true);
   const NaturalMotions left =
-      natural_motions(structure_, problem_, masses_, point.y, point.lambda, left_, columns_);
+      natural_motions(structure_, problem_, masses_, point.y, point.lambda, part.left, columns_);
   problem_.set_transposed(false);
-  left_.begin_with(left);
+  part.left.begin_with(left);
   if (left.motions.cols() == out.motions.motions.cols())
     out.growing = most_growing(structure_, model_, masses_, out.motions, left);
   return out;
 }
 
+bool FlutterSearch::grows(const Sample& at) const {
+  return is_damped(model_.damping) ? at.growing.growth > 0.0 : at.pairs > 0;
+}
+
+bool FlutterSearch::flutters_at(const PathPoint& point) {
+  return std::ranges::any_of(parts_, [&](Part& part) { return grows(sample(part, point)); });
+}
+
+/// The first point of a step at which natural motions are those of the step.
+PathPoint FlutterSearch::beginning(PointSolver& solver, const PathPoint& from, const PathPoint& to) const {
+  if (!structure_.one_sided || !has_any(problem_.marks_at(from.y))) return from;
+  return Segment(solver, from, to).point_at(FlutterLimits::beginning).value_or(from);
+}
+
 StepVibrations FlutterSearch::on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to,
                                       double tolerance) {
-  const bool is_known = last_ && last_->point.lambda == from.lambda && last_->point.y == from.y;
-  const Sample first = is_known ? *std::move(last_) : sample(from);
-  const Sample second = sample(to);
-  too_long_ = false;
+  const PathPoint begin = beginning(solver, from, to);
   StepVibrations out;
-  out.flutter = between(solver, first, second, tolerance, 0);
-  out.is_too_long = too_long_;
-  last_ = too_long_ ? first : second;
+  const auto add = [&out](std::optional<CriticalEvent> found) {
+    if (found && (!out.loss || found->point.arc_length < out.loss->point.arc_length))
+      out.loss = std::move(found);
+  };
+  for (Part& part : parts_) {
+    add(in_part(part, solver, begin, to, tolerance));
+    out.is_too_long = too_long_;
+    if (too_long_) return {{}, true};
+  }
+  if (massless_) add(massless_->on_step(solver, begin, to, largest_square(), tolerance));
+  return out;
+}
+
+/// The largest of the eigenvalues that were found last.
+double FlutterSearch::largest_square() const {
+  double largest = masses_.scale;
+  for (const Part& part : parts_)
+    for (const auto& square : part.last->motions.squares) largest = std::max(largest, std::abs(square));
+  return largest;
+}
+
+std::optional<CriticalEvent> FlutterSearch::in_part(Part& part, PointSolver& solver, const PathPoint& from,
+                                                    const PathPoint& to, double tolerance) {
+  const bool is_known = part.last && part.last->point.lambda == from.lambda && part.last->point.y == from.y;
+  const Sample first = is_known ? *std::move(part.last) : sample(part, from);
+  const Sample second = sample(part, to);
+  too_long_ = false;
+  halvings_ = 0;
+  auto out = between(part, solver, first, second, tolerance);
+  part.last = too_long_ ? first : second;
   return out;
 }
 
 /// Searches a piece of the path for flutter, in halves as long as its eigenvalues bend.
-std::optional<CriticalEvent> FlutterSearch::between(PointSolver& solver, const Sample& from, const Sample& to,
-                                                    double tolerance, int depth) {
-  const auto here = [&]() -> std::optional<CriticalEvent> {
-    if (is_damped(model_.damping))
-      return from.growing.growth <= 0.0 && to.growing.growth > 0.0
-                 ? locate_growth(solver, from, to, tolerance)
-                 : std::nullopt;
-    return to.pairs > from.pairs ? locate(solver, from, to, tolerance) : std::nullopt;
-  };
+std::optional<CriticalEvent> FlutterSearch::between(Part& part, PointSolver& solver, const Sample& from,
+                                                    const Sample& to, double tolerance) {
   const double width = std::abs(to.point.lambda - from.point.lambda);
   if (width <= FlutterLimits::shortest * std::max(std::abs(to.point.lambda), std::abs(from.point.lambda)))
-    return here();
+    return on_piece(part, solver, from, to, tolerance);
   const auto point = Segment(solver, from.point, to.point).point_at(0.5);
-  if (!point) return here();
-  const Sample middle = sample(*point);
+  if (!point) return on_piece(part, solver, from, to, tolerance);
+  const Sample middle = sample(part, *point);
   const auto is_odd = [](int difference) { return difference % 2 != 0; };
   too_long_ =
       !is_odd(to.point.negative - from.point.negative) && is_odd(point->negative - from.point.negative);
   if (too_long_) return std::nullopt;
-  if (!bends(from.motions.squares, middle.motions.squares, to.motions.squares)) return here();
-  too_long_ = depth == FlutterLimits::halvings;
+  if (!bends(from.motions.squares, middle.motions.squares, to.motions.squares))
+    return on_piece(part, solver, from, to, tolerance);
+  too_long_ = ++halvings_ > FlutterLimits::halvings;
   if (too_long_) return std::nullopt;
-  if (auto found = between(solver, from, middle, tolerance, depth + 1)) return found;
-  return too_long_ ? std::nullopt : between(solver, middle, to, tolerance, depth + 1);
+  if (auto found = between(part, solver, from, middle, tolerance)) return found;
+  return too_long_ ? std::nullopt : between(part, solver, middle, to, tolerance);
+}
+
+/// Searches a piece of the path on which no eigenvalues meet but where the ends show it.
+std::optional<CriticalEvent> FlutterSearch::on_piece(Part& part, PointSolver& solver, const Sample& from,
+                                                     const Sample& to, double tolerance) {
+  if (is_damped(model_.damping))
+    return !grows(from) && grows(to) ? locate_growth(part, solver, from, to, tolerance) : std::nullopt;
+  return to.pairs > from.pairs ? locate(part, solver, from, to, tolerance) : std::nullopt;
 }
 
 StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to) {
@@ -206,7 +262,7 @@ StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, co
 /// is nearest to `mean`; with damping, to the pair nearest to |s|^2, where exp(s t) is the vibration that
 /// grows most.
 /// @return empty where fewer than two natural motions are found at the root; the step then counts as too long
-std::optional<CriticalEvent> FlutterSearch::event_at(const LocatedRoot& root, double mean) {
+std::optional<CriticalEvent> FlutterSearch::event_at(Part& part, const LocatedRoot& root, double mean) {
   CriticalEvent event;
   event.type = CriticalType::flutter;
   event.point = root.root;
@@ -218,7 +274,7 @@ std::optional<CriticalEvent> FlutterSearch::event_at(const LocatedRoot& root, do
   event.multiplicity = 2;
   event.bracket_loads[0] = root.before.lambda;
   event.bracket_loads[1] = root.after.lambda;
-  const Sample at = sample(event.point);
+  const Sample at = sample(part, event.point);
   const Squares& squares = at.motions.squares;
   too_long_ = squares.size() < 2;
   if (too_long_) return std::nullopt;
@@ -227,24 +283,24 @@ std::optional<CriticalEvent> FlutterSearch::event_at(const LocatedRoot& root, do
   return event;
 }
 
-std::optional<CriticalEvent> FlutterSearch::locate_growth(PointSolver& solver, const Sample& from,
+std::optional<CriticalEvent> FlutterSearch::locate_growth(Part& part, PointSolver& solver, const Sample& from,
                                                           const Sample& to, double tolerance) {
-  const RootFunction function{[&](const PathPoint& at) { return sample(at).growing.growth; },
+  const RootFunction function{[&](const PathPoint& at) { return sample(part, at).growing.growth; },
                               closed_by_load(tolerance)};
   const LocatedRoot root =
       find_root(Segment(solver, from.point, to.point), from.growing.growth, to.growing.growth, function);
   too_long_ = !root.found;
   if (too_long_) return std::nullopt;
-  return event_at(root, 0.0);
+  return event_at(part, root, 0.0);
 }
 
-std::optional<CriticalEvent> FlutterSearch::locate(PointSolver& solver, const Sample& from, const Sample& to,
-                                                   double tolerance) {
+std::optional<CriticalEvent> FlutterSearch::locate(Part& part, PointSolver& solver, const Sample& from,
+                                                   const Sample& to, double tolerance) {
   const Pair beyond = new_pair(from.motions.squares, to.motions.squares);
   const Pair before = nearest(from.motions.squares, beyond.mean);
   double mean = beyond.mean;
   const RootFunction function{[&](const PathPoint& at) {
-                                const Pair pair = nearest(sample(at).motions.squares, mean);
+                                const Pair pair = nearest(sample(part, at).motions.squares, mean);
                                 mean = pair.mean;
                                 return pair.difference;
                               },
@@ -253,7 +309,7 @@ std::optional<CriticalEvent> FlutterSearch::locate(PointSolver& solver, const Sa
       find_root(Segment(solver, from.point, to.point), before.difference, beyond.difference, function);
   too_long_ = !root.found;
   if (too_long_) return std::nullopt;
-  return event_at(root, mean);
+  return event_at(part, root, mean);
 }
 
 }  // namespace snapthrough

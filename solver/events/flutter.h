@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "solver/discrete/mass_matrix.h"
 #include "solver/events/critical_event.h"
 #include "solver/events/damped_motions.h"
+#include "solver/events/massless.h"
 #include "solver/events/natural_motions.h"
 #include "solver/events/root_finder.h"
 #include "solver/path/point_solver.h"
@@ -17,7 +19,9 @@ namespace snapthrough {
 
 /// What natural motions, or the determinant, tell of a step between two points of a path.
 struct StepVibrations {
-  std::optional<CriticalEvent> flutter;  ///< the first place at which a pair begins to flutter
+  /// The first place at which a vibration begins to grow: a pair begins to flutter, or a frequency becomes
+  /// infinite (MasslessSearch).
+  std::optional<CriticalEvent> loss;
   /// The step is too long: stability is lost and regained by divergence between its ends, whose inertia does
   /// not show it (only the parity of the inertia of an unsymmetric tangent is known), or the natural motions
   /// change too much to be followed.
@@ -35,16 +39,26 @@ struct StepVibrations {
 /// square of the difference of two eigenvalues that meet is a smooth function of the load, and falls through
 /// zero there. Damped vibrations flutter where their growth rises through zero, which small damping may bring
 /// about at a lower load (Ziegler, 1952).
+///
+/// Each connected part of the structure on which such loads act is searched by itself, among the motions that
+/// the forces at the places of its loads excite (follower_parts()).
 class FlutterSearch {
  public:
   /// @param structure, model kept by reference; must outlive this object
+  /// @param stage actions that the load factor multiplies
   /// @pre structure.unsymmetric() and has_mass(model)
-  FlutterSearch(const Structure& structure, const Model& model);
+  FlutterSearch(const Structure& structure, const Model& model,
+                StructuralProblem::Stage stage = StructuralProblem::Stage::proportional);
 
   /// @brief Follows the natural motions between two points of a path.
+  ///
+  /// Where one-sided supports touch without pressure at `from`, as where a path begins, natural motions jump:
+  /// they are compared from the first point of the step on at which these supports act or are left.
   /// @param tolerance on the load of flutter, relative
   [[nodiscard]] StepVibrations on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to,
                                        double tolerance);
+  /// Whether a vibration about an equilibrium grows and oscillates.
+  [[nodiscard]] bool flutters_at(const PathPoint& point);
 
  private:
   struct Sample {
@@ -53,25 +67,38 @@ class FlutterSearch {
     int pairs = 0;          ///< conjugate pairs of eigenvalues that are not real
     GrowingMotion growing;  ///< damped vibration; not used without damping
   };
-  [[nodiscard]] Sample sample(const PathPoint& point);
-  [[nodiscard]] std::optional<CriticalEvent> between(PointSolver& solver, const Sample& from,
-                                                     const Sample& to, double tolerance, int depth);
-  [[nodiscard]] std::optional<CriticalEvent> locate_growth(PointSolver& solver, const Sample& from,
-                                                           const Sample& to, double tolerance);
-  [[nodiscard]] std::optional<CriticalEvent> locate(PointSolver& solver, const Sample& from, const Sample& to,
-                                                    double tolerance);
-
-  [[nodiscard]] std::optional<CriticalEvent> event_at(const LocatedRoot& root, double mean);
+  /// Search in one connected part of the structure.
+  struct Part {
+    MotionSearch search;
+    MotionSearch left;  ///< motions of the transposed tangent
+    std::optional<Sample> last;
+  };
+  [[nodiscard]] Sample sample(Part& part, const PathPoint& point);
+  [[nodiscard]] bool grows(const Sample& at) const;
+  [[nodiscard]] double largest_square() const;
+  [[nodiscard]] PathPoint beginning(PointSolver& solver, const PathPoint& from, const PathPoint& to) const;
+  [[nodiscard]] std::optional<CriticalEvent> in_part(Part& part, PointSolver& solver, const PathPoint& from,
+                                                     const PathPoint& to, double tolerance);
+  [[nodiscard]] std::optional<CriticalEvent> between(Part& part, PointSolver& solver, const Sample& from,
+                                                     const Sample& to, double tolerance);
+  [[nodiscard]] std::optional<CriticalEvent> on_piece(Part& part, PointSolver& solver, const Sample& from,
+                                                      const Sample& to, double tolerance);
+  [[nodiscard]] std::optional<CriticalEvent> locate_growth(Part& part, PointSolver& solver,
+                                                           const Sample& from, const Sample& to,
+                                                           double tolerance);
+  [[nodiscard]] std::optional<CriticalEvent> locate(Part& part, PointSolver& solver, const Sample& from,
+                                                    const Sample& to, double tolerance);
+  [[nodiscard]] std::optional<CriticalEvent> event_at(Part& part, const LocatedRoot& root, double mean);
 
   StructuralProblem problem_;
   const Structure& structure_;
   const Model& model_;
   MassMatrix masses_;
-  MotionSearch search_;
-  MotionSearch left_;  ///< motions of the transposed tangent
   KrylovColumns columns_;
-  std::optional<Sample> last_;
-  bool too_long_ = false;  ///< the present step, see StepVibrations
+  std::vector<Part> parts_;
+  std::optional<MasslessSearch> massless_;  ///< where some element has no mass
+  int halvings_ = 0;                        ///< halvings of the present step
+  bool too_long_ = false;                   ///< the present step, see StepVibrations
 };
 
 }  // namespace snapthrough

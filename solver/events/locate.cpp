@@ -332,6 +332,9 @@ LocatedEvents locate_at_kink(PathFollower& follower, const PathPoint& a, const P
   search_piece(search, step, 0);
   if (out.same_path) return out;
   PathPoint kink = follower.last_point_before_kink(a, size);
+  const PathMetric& metric = follower.norm().metric();
+  const double apart = metric.norm(b.y - kink.y, 0.0);
+  if (apart > options.before_kink * metric.norm(b.y, 0.0) && size > Gradients::tiny) return {{}, false, {}};
   kink.arc_length = std::nextafter(kink.arc_length, std::numeric_limits<double>::infinity());
   return {events_before(kink, b), true, {}};
 }

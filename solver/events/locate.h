@@ -21,7 +21,8 @@ namespace snapthrough {
 
 /// @brief All critical points on a step that led round a kink (StepOutcome::kinked), where places are
 /// measured by the displacement alone. A change of inertia that cannot be bracketed there is put at the last
-/// point before the kink, with contact as its cause.
+/// point before the kink, with contact as its cause, where that is close to the end of the step; else the
+/// step is not on one path.
 /// @param size of the step that was taken
 [[nodiscard]] LocatedEvents locate_at_kink(PathFollower& follower, const PathPoint& a, const PathPoint& b,
                                            double size, const LocateOptions& options);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/discrete/mass_matrix.h"
+#include "solver/events/eigenpairs.h"
 #include "solver/problem/structural_problem.h"
 
 namespace snapthrough {
@@ -24,31 +25,18 @@ struct NaturalMotions {
   int factorizations = 0;
 };
 
-/// What is searched for.
-struct MotionSearch {
-  int count = 1;  ///< number of eigenvalues; the structure may have fewer
-  /// Relative error of eigenvalues that the iteration may leave: the part of a motion that it leaves is as
-  /// large, or the square root of that where the tangent is symmetric.
-  double tolerance = 1e-12;
-  bool counted = true;        ///< inertia counts confirm that no eigenvalue was missed (symmetric tangents)
-  Eigen::MatrixXd near = {};  ///< motions nearby, to begin with; may be empty
-  double scale = 0.0;         ///< magnitude of the lowest eigenvalues; 0: unknown
+/// What is searched for: eigenvalues mu and motions nearby.
+struct MotionSearch : EigenSearch {
+  double scale = 0.0;  ///< magnitude of the lowest eigenvalues; 0: unknown
 
   /// Begins the next search, of a state nearby, with what was found.
   void begin_with(const NaturalMotions& found);
 };
 
-/// Columns of a Krylov basis, kept from one search to the next: to return and to get as much memory costs as
-/// much as a search. Contents between searches mean nothing.
-struct KrylovColumns {
-  Eigen::MatrixXd basis, weighted, images;
-};
-
 /// @brief Finds the lowest natural motions at (y, lambda).
 ///
-/// Block Krylov subspaces of (J + sigma M)^-1 M, orthonormal in M, with sigma > 0 below all eigenvalues by
-/// the inertia of J + sigma M (Parlett, The Symmetric Eigenvalue Problem, ch. 13; Arnoldi's method where J is
-/// not symmetric). Unknowns without mass are eliminated exactly by each solution.
+/// lowest_eigenpairs() of the pencil J - mu M with a shift -sigma below all eigenvalues, by the inertia of
+/// J + sigma M. Unknowns without mass are eliminated exactly by each solution.
 /// @param problem without holds; its factors are overwritten
 /// @param columns overwritten
 /// @param y, lambda an equilibrium; one-sided supports act as they do there

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "solver/numeric/bracket.h"
@@ -19,6 +20,9 @@ struct RootSearch {
   static constexpr double zero = 1e-12;           ///< value over the first difference that counts as zero
   /// Distance of points on one path over their distance along the segment's direction, at most.
   static constexpr double steepest = 10.0;
+  /// Length of the way between two points over their distance, at most: that round a right angle is 1.4.
+  static constexpr double longest_way = 2.0;
+  static constexpr int corrections = 60;  ///< most corrections that lower the energy
 };
 
 /// A place as far beyond an estimate near an end of a bracket as the estimate is from that end.
@@ -27,6 +31,29 @@ double just_beyond(double place, double from, double to) {
   if (fraction < RootSearch::near_end) return from + 2.0 * (place - from);
   if (fraction > 1.0 - RootSearch::near_end) return to - 2.0 * (to - place);
   return place;
+}
+
+/// Whether a point lies where a path between two others may lead.
+bool is_between(const PointSolver& solver, const PathPoint& a, const PathPoint& b, const PathPoint& point) {
+  const PathNorm& norm = solver.norm();
+  return norm.distance(a, point) + norm.distance(point, b) <=
+         RootSearch::longest_way * norm.distance(a, b) + LocatedPoints::same_path;
+}
+
+/// The equilibrium at a load by corrections that lower the energy, from either end of a bracket: Newton's
+/// method cycles between contact states where several supports begin to act within the bracket.
+std::optional<PathPoint> point_of_least_energy(PointSolver& solver, const LocatedRoot& bracket, double load) {
+  if (!solver.problem().one_sided()) return std::nullopt;
+  for (const PathPoint* end : {&bracket.root, &bracket.before, &bracket.after}) {
+    PathPoint point = *end;
+    point.lambda = load;
+    const double size = std::max(solver.norm().metric().norm(end->y, 0.0), kRoundingResidual);
+    const auto outcome = solver.correct_by_least_energy(size, RootSearch::corrections, point);
+    if (outcome.status != CorrectorStatus::converged) continue;
+    point.negative = count_next_to(end->negative, outcome.tangent);
+    return point;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -70,25 +97,32 @@ LocatedRoot find_root(const Segment& segment, double value_from, double value_to
   return out;
 }
 
-void move_to_load(PointSolver& solver, double load, PathPoint& point) {
-  if (load == 0.0 || std::abs(point.lambda - load) <= kSameLoadFactor * std::abs(load)) return;
+std::optional<PathPoint> moved_to_load(PointSolver& solver, double load, const PathPoint& point) {
+  if (std::abs(point.lambda - load) <= kSameLoadFactor * std::abs(load)) return point;
   PathPoint moved = point;
   // along the tangent: a little load moves the structure by less than its equilibrium is corrected to
   if (point.tangent_lambda != 0.0) moved.y += ((load - point.lambda) / point.tangent_lambda) * point.tangent;
   moved.lambda = load;
-  const double size = solver.norm().metric().norm(point.y, 0.0);
-  if (size == 0.0 || solver.correct_at_load(size, moved)) point = std::move(moved);
+  const double size = std::max(solver.norm().metric().norm(point.y, 0.0), kRoundingResidual);
+  if (!solver.correct_at_load(size, moved)) return std::nullopt;
+  return moved;
 }
 
-PathPoint point_at_load(PointSolver& solver, const PathPoint& a, const PathPoint& b, double load) {
+std::optional<PathPoint> point_at_load(PointSolver& solver, const PathPoint& a, const PathPoint& b,
+                                       double load) {
   const double size = std::abs(b.lambda - a.lambda);
   const RootFunction function{[load](const PathPoint& point) { return point.lambda - load; },
                               [size](const PathPoint&, const PathPoint&, double v) {
                                 return std::abs(v) <= RootSearch::zero * size;
                               }};
-  PathPoint point = find_root(Segment(solver, a, b), function.value(a), function.value(b), function).root;
-  move_to_load(solver, load, point);
-  return point;
+  const LocatedRoot root = find_root(Segment(solver, a, b), function.value(a), function.value(b), function);
+  std::optional<PathPoint> point = moved_to_load(solver, load, root.root);
+  if (point && is_between(solver, a, b, *point)) return point;
+  // nothing may hold a structure without load
+  if (load == 0.0 && root.found) return root.root;
+  point = point_of_least_energy(solver, root, load);
+  if (point && is_between(solver, a, b, *point)) return point;
+  return std::nullopt;
 }
 
 }  // namespace snapthrough

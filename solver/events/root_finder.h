@@ -3,6 +3,7 @@
 /// Places between two points of a path where a function of the path is zero, or its load has a value.
 
 #include <functional>
+#include <optional>
 
 #include "solver/path/path_point.h"
 #include "solver/path/segment.h"
@@ -49,14 +50,20 @@ struct LocatedPoints {
 /// Relative difference of two load factors that counts as none.
 inline constexpr double kSameLoadFactor = 1e-11;
 
-/// @brief Moves a point of a path that is next to a load onto it. (A root along a step is known to a share of
-/// the step, which is far longer than the load's change where the load hardly moves the structure.)
-/// @post unless the load is 0 or no equilibrium is found there, the point's load is it to kSameLoadFactor
-void move_to_load(PointSolver& solver, double load, PathPoint& point);
+/// @brief The equilibrium at a load, from a point of a path next to it. (A root along a step is known to a
+/// share of the step, which is far longer than the load's change where the load hardly moves the structure.)
+/// @return a point whose load is the given one to kSameLoadFactor; empty when no equilibrium is found there
+[[nodiscard]] std::optional<PathPoint> moved_to_load(PointSolver& solver, double load,
+                                                     const PathPoint& point);
 
-/// @brief The point of the path between a and b that has a load, see move_to_load().
+/// @brief The point of the path between a and b that has a load.
+///
+/// Newton's method looks for it from the place on the segment where the load is met, then, on one-sided
+/// supports, corrections that lower the energy from either end. A state farther from a and b than a path
+/// between them leads is not on that path.
 /// @pre the loads of a and b are on both sides of it
-[[nodiscard]] PathPoint point_at_load(PointSolver& solver, const PathPoint& a, const PathPoint& b,
-                                      double load);
+/// @return a point whose load is the given one to kSameLoadFactor; empty when no such point is found
+[[nodiscard]] std::optional<PathPoint> point_at_load(PointSolver& solver, const PathPoint& a,
+                                                     const PathPoint& b, double load);
 
 }  // namespace snapthrough

@@ -58,7 +58,7 @@ TouchingSupports least_piece(const Model& model, const Structure& structure, dou
   const Structure unknown = with_touching(structure, model, {});
   StructuralProblem problem(unknown);
   buckling = linear_buckling(unknown, problem, 1, reference, near);
-  if (!buckling.piece.found || buckling.loads.empty()) return {};
+  if (!buckling.piece.found || !buckling.complete || buckling.loads.empty()) return {};
   TouchingSupports out = problem.touching(buckling.marks, &buckling.contact);
   out.motion = buckling.piece.motion;
   out.reference = reference;

@@ -119,6 +119,11 @@ class Progress {
         displacement_(std::min(scale, options.displacement)),
         previous_(scale) {}
 
+  /// The displacement within the step is at least that of a correction: a gap that closes moves a structure
+  /// that the predictor leaves at rest.
+  void has_moved(double displacement) {
+    displacement_ = std::min(scale_, std::max(displacement_, displacement));
+  }
   /// Whether a correction of norm `size`, computed at the relative residual `residual`, is the last.
   [[nodiscard]] bool is_last(int iteration, double size, double residual) {
     // predicted next correction under quadratic convergence
@@ -200,6 +205,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const double dlambda = find_correction(problem, side, y, lambda, work);
     const double size = metric.norm(work.correction(), dlambda);
     if (!std::isfinite(size)) return out;
+    if (std::isfinite(options.displacement)) progress.has_moved(metric.norm(work.correction(), 0.0));
     const bool last = progress.is_last(it, size, residual);
     if (it == 0) {
       out.first_correction = size;

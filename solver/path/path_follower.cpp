@@ -39,7 +39,7 @@ StepOutcome PathFollower::step(const PathPoint& from, StepSize& step, PathPoint&
     const bool forecast = one_sided && size >= limits_.kink_share * last_full_step_;
     const StepMeasures measures = try_step(solver_, predictor_, limits_, {from, sizes, forecast}, to);
     predictor_.forget_curvature();
-    const StepDecision decision = judge_step(measures, limits_, sizes, one_sided);
+    const StepDecision decision = judge_step(measures, limits_, sizes, problem().may_kink());
     if (decision.verdict == StepVerdict::accepted) {
       auto& counts = solver_.statistics().corrections;
       ++counts[std::min<std::size_t>(measures.corrections, counts.size() - 1)];

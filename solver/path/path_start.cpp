@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "solver/numeric/rounding.h"
+
 namespace snapthrough {
 
 using Eigen::VectorXd;
@@ -49,8 +51,11 @@ class StartFinder {
   [[nodiscard]] std::optional<PathPoint> under_small_load();
   [[nodiscard]] std::optional<PathPoint> pinned_softly(const SharedHolds& soft, SoftlyHeld& met,
                                                        PathPoint& loaded);
+  [[nodiscard]] bool lower_to_own_stiffness(double& lambda);
+  void begin_unmoved(const LoadResponse& response, const LoadResponse& glued, PathPoint& start);
   [[nodiscard]] std::optional<PathPoint> at_rest(PathPoint rest);
   [[nodiscard]] std::optional<PathPoint> near_small_displacements(double lambda);
+  [[nodiscard]] std::optional<PathPoint> where_gaps_close(PathPoint pressed, double lambda);
   [[nodiscard]] bool is_far(const PathPoint& rest);
   [[nodiscard]] PathPoint unloaded() const;
   [[nodiscard]] std::optional<ContactState> contact(double lambda, const VectorXd* guess,
@@ -118,9 +123,39 @@ std::optional<PathPoint> StartFinder::near_small_displacements(double lambda) {
   return at_rest(std::move(rest));
 }
 
+/// The first point at a state of rest where gaps have closed, if there is one, or at the one under a load.
+/// Soft springs of pinned motions may stand in for a structure that does not stand by itself.
+std::optional<PathPoint> StartFinder::where_gaps_close(PathPoint pressed, double lambda) {
+  if (pressed.y.size() > 0)
+    if (auto found = at_rest(std::move(pressed))) return found;
+  return near_small_displacements(lambda);
+}
+
+/// Lowers a load, under which gaps have closed, to one that is very small for the structure without the
+/// supports that it does not press.
+/// @return false where the structure does not stand by itself, or the load is as small already
+bool StartFinder::lower_to_own_stiffness(double& lambda) {
+  const auto own = solver_.response_at(unloaded(), Regime::Contact::unilateral);
+  if (!own) return false;
+  const double most = small_load(norm(own->rate), solver_.problem().critical_load_scale(own->rate));
+  if (std::abs(lambda) <= most) return false;
+  lambda = direction_ * most;
+  return true;
+}
+
+/// Begins where a small load moves the ground alone, until its gap to the structure closes: the displacements
+/// of the structure are rounding. The norm's scales are those of the structure that moves with its supports.
+void StartFinder::begin_unmoved(const LoadResponse& response, const LoadResponse& glued, PathPoint& start) {
+  LoadResponse moved = response;
+  const double rounding = Rounding::displacement * moved.rate.lpNorm<Eigen::Infinity>();
+  moved.rate = (moved.rate.array().abs() > rounding).select(moved.rate, 0.0);
+  solver_.norm().set_scales(solver_.problem(), glued.rate);
+  solver_.set_tangent(start, moved, direction_);
+}
+
 /// The first point by the contact under a very small load. The load falls until the displacement is small, or
-/// no longer falls with it: then the structure moves until gaps close, and the path begins where it comes to
-/// rest.
+/// no longer falls with it because gaps have closed: then a structure that stands by itself is looked at
+/// under a load that closes none, and the path of another one begins where it comes to rest.
 std::optional<PathPoint> StartFinder::under_small_load() {
   PathPoint start = unloaded();
   auto glued = solver_.response_at(start, Regime::Contact::bilateral);
@@ -136,8 +171,9 @@ std::optional<PathPoint> StartFinder::under_small_load() {
   double lambda = first;
   double last = std::numeric_limits<double>::infinity();
   VectorXd guess;
-  PathPoint rest;  // at the load before, which holds the structure better than this one
-  const double least = kRoundingResidual * std::abs(lambda);
+  PathPoint rest;     // at the load before, which holds the structure better than this one
+  PathPoint pressed;  // that where gaps have closed
+  double least = kRoundingResidual * std::abs(lambda);
   while (std::abs(lambda) > least) {
     const auto state = contact(lambda, guess.size() > 0 ? &guess : nullptr);
     const double size = state ? norm(state->y) : 0.0;
@@ -147,13 +183,25 @@ std::optional<PathPoint> StartFinder::under_small_load() {
         out_.free_motion = std::move(motion);
         return std::nullopt;
       }
+      const LoadResponse response{state->y / lambda, state->tangent};
+      if (size <= Rounding::displacement * std::abs(lambda) * flexibility) {
+        begin_unmoved(response, *glued, start);
+        return start;
+      }
       out_.contact_flexibility_ratio = size / std::abs(lambda * flexibility);
-      begin(solver_, direction_, {state->y / lambda, state->tangent}, start);
+      begin(solver_, direction_, response, start);
       return start;
     }
     if (state && size > StartSearch::proportional * last) {
-      if (auto found = at_rest(std::move(rest))) return found;
-      break;
+      if (!lower_to_own_stiffness(lambda)) {
+        if (auto found = at_rest(std::move(rest))) return found;
+        break;
+      }
+      pressed = rest;
+      last = std::numeric_limits<double>::infinity();
+      least = kRoundingResidual * std::abs(lambda);
+      guess.resize(0);
+      continue;
     }
     const double fall =
         state ? std::max(Gradients::tiny / size, StartSearch::largest_fall) : StartSearch::fall_without_state;
@@ -165,7 +213,7 @@ std::optional<PathPoint> StartFinder::under_small_load() {
     }
     lambda *= fall;
   }
-  return near_small_displacements(first);
+  return where_gaps_close(std::move(pressed), first);
 }
 
 /// The first point with all free motions pinned softly: then there is one whatever one-sided supports do, and

@@ -28,6 +28,9 @@ struct PathStart {
   /// empty: there is none.
   Eigen::VectorXd free_motion;
   std::optional<FarState> far_state;  ///< without a point
+  /// Share of the constant actions from which on vibrations about the structure grow and oscillate (flutter),
+  /// if they do so at the point.
+  std::optional<double> grows_from;
 
   explicit operator bool() const { return point.has_value(); }
 };

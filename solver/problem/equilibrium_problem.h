@@ -56,6 +56,8 @@ class EquilibriumProblem {
   virtual void solve(Eigen::Ref<Eigen::MatrixXd> x) = 0;
   /// Whether any support is one-sided; the response then need not be differentiable at zero load.
   [[nodiscard]] virtual bool one_sided() const { return false; }
+  /// Whether the path may turn within less than a step: where contact changes, or at a bend of a law.
+  [[nodiscard]] virtual bool may_kink() const { return one_sided(); }
   /// @brief Contact zones of one-sided foundations at y; their ends move as y changes at `rate`.
   [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
     return {};

@@ -10,20 +10,26 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 NodeSpringWork::NodeSpringWork(std::span<const NodeSpring> springs)
-    : springs_(springs), states_(springs.size()) {}
+    : springs_(springs), states_(springs.size()) {
+  for (const NodeSpring& spring : springs) stops_ += spring.is_stop() ? 1 : 0;
+}
+
+/// Whether a spring acts. @param index of the spring among those at nodes
+bool NodeSpringWork::acts(std::size_t index, double w, const Regime& regime) const {
+  if (regime.is_frozen()) return regime.frozen->node_springs[index] != 0;
+  return regime.bilateral() || springs_[index].acts(w);
+}
 
 /// @param index of the spring among those at nodes
 NodeSpringWork::Reaction NodeSpringWork::reaction(std::size_t index, double w, const Regime& regime) const {
   const NodeSpring& spring = springs_[index];
   const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
-  bool acts = regime.bilateral() || spring.acts(w);
-  if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
   Law::Response law = spring.law.response_at(w - gap);
   if (const auto* at = regime.linearised_at(); at != nullptr && spring.law.curve != nullptr) {
     law.stiffness = spring.law.stiffness_at(spring.linear(*at) - gap);
     law.force = law.stiffness * (w - gap);
   }
-  const double share = (acts ? 1.0 : 0.0) * (spring.law.one_sided ? regime.softness : 1.0);
+  const double share = (acts(index, w, regime) ? 1.0 : 0.0) * (spring.law.one_sided ? regime.softness : 1.0);
   Reaction out{share * law.force, share * law.stiffness};
   if (!spring.law.one_sided || regime.grip == 0.0) return out;
   // a share of the support acts at every displacement, without gap
@@ -32,26 +38,71 @@ NodeSpringWork::Reaction NodeSpringWork::reaction(std::size_t index, double w, c
   return out;
 }
 
+/// A softened stop gives way more. A grip acts with the stiffness of the stop's law.
+NodeSpringWork::State NodeSpringWork::state_of_stop(std::size_t index, const VectorXd& y,
+                                                    const Regime& regime) const {
+  const NodeSpring& stop = springs_[index];
+  const double w = stop.moved(y);
+  const double force = y[stop.force_unknown];
+  State out;
+  out.gradient = stop.direction();
+  out.stiffness = regime.grip * stop.law.stiffness;
+  out.force = out.stiffness * w;
+  out.give = 1.0 / stop.law.stiffness;
+  if (acts(index, stop.linear(y), regime)) {
+    out.force += force;
+    out.row = out.gradient;
+    out.give = stop.give / regime.softness;
+    out.gap = w - (regime.bilateral() ? 0.0 : stop.law.gap);
+  }
+  out.gap -= out.give * force;
+  out.tangent = out.stiffness * out.gradient * out.gradient.transpose();
+  return out;
+}
+
 void NodeSpringWork::evaluate(const VectorXd& y, const Regime& regime) {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const NodeSpring& spring = springs_[i];
+    if (spring.is_stop()) {
+      states_[i] = state_of_stop(i, y, regime);
+      continue;
+    }
     const auto [w, gradient, curvature] = spring.motion(y, regime.small_displacements);
     const Reaction at = reaction(i, w, regime);
     const double turning =
         regime.prestress != nullptr ? reaction(i, spring.linear(*regime.prestress), regime).force : at.force;
-    states_[i] = {at.stiffness, gradient, at.force,
-                  at.stiffness * gradient * gradient.transpose() + turning * curvature};
+    states_[i] = {};
+    states_[i].stiffness = at.stiffness;
+    states_[i].gradient = gradient;
+    states_[i].force = at.force;
+    states_[i].tangent = at.stiffness * gradient * gradient.transpose() + turning * curvature;
   }
 }
 
 void NodeSpringWork::add_forces(VectorXd& f) const {
   for (std::size_t i = 0; i < springs_.size(); ++i)
     springs_[i].add(states_[i].force * states_[i].gradient, f);
+  for (std::size_t i = 0; stops_ > 0 && i < springs_.size(); ++i)
+    if (springs_[i].is_stop()) f[springs_[i].force_unknown] += states_[i].gap;
+}
+
+double NodeSpringWork::log_abs_det_of_stops() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < springs_.size(); ++i)
+    if (springs_[i].is_stop()) sum += std::log(states_[i].give);
+  return sum;
 }
 
 void NodeSpringWork::add_products(const Eigen::Ref<const VectorXd>& motion, Eigen::Ref<VectorXd> out) const {
   for (std::size_t i = 0; i < springs_.size(); ++i)
     springs_[i].add(states_[i].tangent * springs_[i].relative(motion), out);
+  for (std::size_t i = 0; stops_ > 0 && i < springs_.size(); ++i) {
+    if (!springs_[i].is_stop()) continue;
+    const double force = motion[springs_[i].force_unknown];
+    springs_[i].add(force * states_[i].row, out);
+    out[springs_[i].force_unknown] +=
+        states_[i].row.dot(springs_[i].relative(motion)) - states_[i].give * force;
+  }
 }
 
 /// With p(w) the reaction, g and C the derivatives of w, the tangent K = p' g g^T + p C changes along a by

@@ -14,6 +14,11 @@ namespace snapthrough {
 
 /// @brief Springs at nodes at one state of the unknowns. Their forces are added to the rows of the nodes,
 /// before these are turned to the axes of supports.
+///
+/// A stop (NodeSpring::is_stop()) adds its force p to the node and has a row of its own, of a displacement:
+///
+///   w - g - c p  where the stop acts, else  - p / k;    by p:  - c  or  - 1 / k, one negative eigenvalue
+///   each
 class NodeSpringWork {
  public:
   /// @param springs kept by reference; must outlive this object
@@ -22,7 +27,15 @@ class NodeSpringWork {
   /// @brief Evaluates all springs at y; the functions below refer to this state.
   void evaluate(const Eigen::VectorXd& y, const Regime& regime);
   void add_forces(Eigen::VectorXd& f) const;
-  /// Tangent stiffness of a spring by its displacement r, see NodeSpring.
+  /// Derivative of a stop's row by its force. @pre the spring is a stop
+  [[nodiscard]] double row_by_force(std::size_t spring) const { return -states_[spring].give; }
+  /// Derivative of the node's forces by the force of a stop, and of the stop's row by r.
+  [[nodiscard]] const Eigen::Vector3d& row_by_motion(std::size_t spring) const { return states_[spring].row; }
+  /// Number of stops.
+  [[nodiscard]] int stops() const { return stops_; }
+  /// Logarithm of the determinant of the diagonal that stops add.
+  [[nodiscard]] double log_abs_det_of_stops() const;
+  /// Tangent stiffness of a spring by its displacement r, see NodeSpring; of a stop with its force fixed.
   [[nodiscard]] const Eigen::Matrix3d& tangent(std::size_t spring) const { return states_[spring].tangent; }
   /// Adds the tangent stiffness times a motion.
   void add_products(const Eigen::Ref<const Eigen::VectorXd>& motion, Eigen::Ref<Eigen::VectorXd> out) const;
@@ -39,16 +52,22 @@ class NodeSpringWork {
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< dw / dr
     double force = 0.0;                                  ///< against w
     Eigen::Matrix3d tangent = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d row = Eigen::Vector3d::Zero();  ///< derivative of a stop's row by r
+    double give = 0.0;                              ///< minus that by its force
+    double gap = 0.0;                               ///< value of the row, see NodeSpringWork
   };
   /// Reaction at a displacement w, with its derivative by w.
   struct Reaction {
     double force = 0.0;
     double stiffness = 0.0;
   };
+  [[nodiscard]] bool acts(std::size_t index, double w, const Regime& regime) const;
   [[nodiscard]] Reaction reaction(std::size_t index, double w, const Regime& regime) const;
+  [[nodiscard]] State state_of_stop(std::size_t index, const Eigen::VectorXd& y, const Regime& regime) const;
 
   std::span<const NodeSpring> springs_;
   std::vector<State> states_;
+  int stops_ = 0;
 };
 
 }  // namespace snapthrough

@@ -58,7 +58,7 @@ double imposed_gradient(const Structure& structure, const VectorXd& load,
 StructuralProblem::StructuralProblem(const Structure& structure)
     : structure_(structure),
       stop_(structure.stop),
-      members_(structure.mesh.first.size() - 1),
+      parts_(structure.parts_between_nodes.size() - 1),
       follower_loads_(structure.follower_ends, structure.follower_forces),
       springs_(structure.node_springs) {
   condensed_.resize(structure.dofs.size());
@@ -68,7 +68,7 @@ StructuralProblem::StructuralProblem(const Structure& structure)
     turns_.push_back({std::cos(angle), std::sin(angle)});
     if (angle != 0.0) inclined_.push_back(j);
   }
-  chains_.resize(members_);
+  chains_.resize(parts_);
   elements_ = structure.elements->make_work();
   // A node rotation is free when all members there are released and no support or spring to ground acts on
   // it. check() refuses a rotational spring between nodes one of which is free without it.
@@ -81,7 +81,7 @@ StructuralProblem::StructuralProblem(const Structure& structure)
     if (spring.row[2] != 0.0 && (spring.to < 0 || spring.to >= structure.first_ground))
       free_rotation_[spring.node] = 0;
   for (const JointSpring& joint : structure.joints) free_rotation_[joint.node_rotation / 3] = 0;
-  const Index n = 3 * structure.nodes + structure.releases + 3 * static_cast<Index>(members_);
+  const Index n = structure.before_elements() + 3 * static_cast<Index>(parts_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
   proportional_force_ = largest_load({1.0, 0.0});
   constant_force_ = largest_load({0.0, 1.0});
@@ -240,49 +240,57 @@ void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
   }
 }
 
-void StructuralProblem::fill_member(std::size_t member, MatrixXd& block) const {
-  const CondensedElement& ends = chains_[member].ends();
-  const Matrix3d Ta = axes_of(structure_.dofs[structure_.mesh.first[member]].a);
-  const Matrix3d Tb = axes_of(structure_.dofs[structure_.mesh.first[member + 1] - 1].b);
-  block.setZero(9, 9);  // member start, member end, end forces
+void StructuralProblem::fill_part(std::size_t part, MatrixXd& block) const {
+  const CondensedElement& ends = chains_[part].ends();
+  const Matrix3d Ta = axes_of(structure_.dofs[first_of(part)].a);
+  const Matrix3d Tb = axes_of(structure_.dofs[first_of(part + 1) - 1].b);
+  block.setZero(9, 9);  // start, end, end forces
   block.topLeftCorner<3, 3>() = Ta.transpose() * ends.K * Ta;
   block.bottomLeftCorner<3, 3>() = ends.X * Ta;
   block.block<3, 3>(6, 3) = Tb;
   block.bottomRightCorner<3, 3>() = -ends.F;
 }
 
-/// Writes the tangent stiffness of a spring at its node, and at the other node where it has one.
+/// Writes the tangent stiffness of a spring at its node, and at the other node where it has one; last the row
+/// of a stop.
 void StructuralProblem::fill_spring(std::size_t spring, MatrixXd& block) const {
   const NodeSpring& at = structure_.node_springs[spring];
   const Matrix3d& tangent = springs_.tangent(spring);
   const auto axes = [this](int node) { return axes_of({3 * node, 3 * node + 1, 3 * node + 2}); };
   const Matrix3d here = axes(at.node);
-  block.resize(at.to < 0 ? 3 : 6, at.to < 0 ? 3 : 6);
+  const Index moved = at.to < 0 ? 3 : 6;
+  const Index size = moved + (at.is_stop() ? 1 : 0);
+  block.setZero(size, size);
   block.topLeftCorner<3, 3>() = here.transpose() * tangent * here;
+  if (at.is_stop()) {
+    block.row(moved).head<3>() = springs_.row_by_motion(spring).transpose() * here;
+    block(moved, moved) = springs_.row_by_force(spring);
+  }
   if (at.to < 0) return;
   const Matrix3d there = axes(at.to);
-  block.topRightCorner<3, 3>() = -here.transpose() * tangent * there;
-  block.bottomLeftCorner<3, 3>() = block.topRightCorner<3, 3>().transpose();
-  block.bottomRightCorner<3, 3>() = there.transpose() * tangent * there;
+  block.block<3, 3>(3, 0) = -there.transpose() * tangent * here;
+  block.block<3, 3>(3, 3) = there.transpose() * tangent * there;
+  if (at.is_stop()) block.row(moved).segment<3>(3) = -springs_.row_by_motion(spring).transpose() * there;
 }
 
 /// Collects the rows that each block of the node system couples: members, node springs, joints, held nodes.
 void StructuralProblem::plan_nodes() {
   node_rows_.clear();
-  for (std::size_t m = 0; m < members_; ++m) {
-    const std::array<int, 3>& a = structure_.dofs[structure_.mesh.first[m]].a;
-    const std::array<int, 3>& b = structure_.dofs[structure_.mesh.first[m + 1] - 1].b;
-    const auto force = static_cast<int>(multiplier(m));
+  for (std::size_t part = 0; part < parts_; ++part) {
+    const std::array<int, 3>& a = structure_.dofs[first_of(part)].a;
+    const std::array<int, 3>& b = structure_.dofs[first_of(part + 1) - 1].b;
+    const auto force = static_cast<int>(multiplier(part));
     node_rows_.push_back({a[0], a[1], a[2], b[0], b[1], b[2], force, force + 1, force + 2});
   }
   for (const NodeSpring& spring : structure_.node_springs) {
     node_rows_.push_back({3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2});
     if (spring.to >= 0)
       for (int c = 0; c < 3; ++c) node_rows_.back().push_back(3 * spring.to + c);
+    if (spring.is_stop()) node_rows_.back().push_back(spring.force_unknown);
   }
   for (const JointSpring& joint : structure_.joints)
     node_rows_.push_back({joint.node_rotation, joint.end_rotation});
-  const auto scalars = static_cast<int>(multiplier(members_));
+  const auto scalars = static_cast<int>(multiplier(parts_));
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
   for (int node = 0; holds > 0 && node < structure_.first_ground; ++node) {
     node_rows_.push_back({3 * node, 3 * node + 1, 3 * node + 2});
@@ -301,9 +309,9 @@ void StructuralProblem::plan_nodes() {
 
 void StructuralProblem::assemble_nodes() {
   if (!planned_) plan_nodes();
-  for (std::size_t member = 0; member < members_; ++member) fill_member(member, node_blocks_[member]);
-  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) fill_spring(i, node_blocks_[members_ + i]);
-  const std::size_t first_joint = members_ + structure_.node_springs.size();
+  for (std::size_t part = 0; part < parts_; ++part) fill_part(part, node_blocks_[part]);
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) fill_spring(i, node_blocks_[parts_ + i]);
+  const std::size_t first_joint = parts_ + structure_.node_springs.size();
   for (std::size_t i = 0; i < structure_.joints.size(); ++i) {
     const double k = structure_.joints[i].stiffness;
     node_blocks_[first_joint + i] = (MatrixXd(2, 2) << k, -k, -k, k).finished();
@@ -329,18 +337,18 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
   add_node_springs(y, regime, f);
   add_holds(y, f);
   TangentReport report;
-  for (std::size_t m = 0; m < members_; ++m) {
-    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
-    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
-    chains_[m].factorise(std::span(condensed_).subspan(first, count));
-    report.negative += chains_[m].ends().negative;
-    report.log_abs_det += chains_[m].ends().log_det;
+  for (std::size_t part = 0; part < parts_; ++part) {
+    const auto first = static_cast<std::size_t>(first_of(part));
+    const auto count = static_cast<std::size_t>(first_of(part + 1)) - first;
+    chains_[part].factorise(std::span(condensed_).subspan(first, count));
+    report.negative += chains_[part].ends().negative;
+    report.log_abs_det += chains_[part].ends().log_det;
   }
   assemble_nodes();
   corrected_ = !follower_loads_.empty() && !regime.small_displacements;
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
-  report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_) - holds;
-  report.log_abs_det += factor_.log_abs_det();
+  report.negative += factor_.inertia().negative - 3 * static_cast<int>(parts_) - holds - springs_.stops();
+  report.log_abs_det += factor_.log_abs_det() - springs_.log_abs_det_of_stops();
   add_couplings(report);
   if (corrected_) add_follower_loads(y, lambda, report);
   constrain_residual(y, lambda, f);
@@ -396,7 +404,7 @@ void StructuralProblem::subtract_fixed(const Eigen::Ref<const VectorXd>& rhs,
 /// Moves what prescribed displacements of the ground do to the elements to the right-hand sides.
 void StructuralProblem::subtract_ground(Eigen::Ref<MatrixXd> x) const {
   const Index first = 3 * structure_.first_ground;
-  const Index count = 3 * (structure_.nodes - structure_.first_ground);
+  const Index count = 3 * (structure_.first_stop_node - structure_.first_ground);
   VectorXd forces;
   for (Index i = 0; count > 0 && i < x.cols(); ++i) {
     if ((x.col(i).segment(first, count).array() == 0.0).all()) continue;
@@ -414,36 +422,36 @@ void StructuralProblem::solve_symmetric(Eigen::Ref<MatrixXd> x) {
 
 void StructuralProblem::solve_uncoupled(Eigen::Ref<MatrixXd> x) {
   subtract_ground(x);
-  const Index displacements = 3 * structure_.nodes + structure_.releases;
-  node_rhs_.resize(multiplier(members_), kLanes);
+  const Index kept = structure_.before_elements();
+  node_rhs_.resize(multiplier(parts_), kLanes);
   free_rhs_.resize(factor_.size(), kLanes);
   for (Index first = 0; first < x.cols(); first += kLanes) {
     const ColumnLanes lanes(x, first);
     const Index count = std::min<Index>(kLanes, x.cols() - first);
     elements_->reduce(lanes, condensed_forces_);
-    node_rhs_.topRows(displacements).leftCols(count) = x.topRows(displacements).middleCols(first, count);
-    for (std::size_t m = 0; m < members_; ++m) reduce_member(m, lanes, count);
+    node_rhs_.topRows(kept).leftCols(count) = x.topRows(kept).middleCols(first, count);
+    for (std::size_t part = 0; part < parts_; ++part) reduce_part(part, lanes, count);
     for (Index i = 0; i < count; ++i) solve_nodes(node_rhs_.col(i), free_rhs_.col(i));
-    x.topRows(displacements).middleCols(first, count) = node_rhs_.topRows(displacements).leftCols(count);
+    x.topRows(kept).middleCols(first, count) = node_rhs_.topRows(kept).leftCols(count);
     for (Index i = first; i < first + count; ++i) turn_from_supports(x.col(i));
-    for (std::size_t m = 0; m < members_; ++m) recover_member(m, lanes, x.middleCols(first, count));
+    for (std::size_t part = 0; part < parts_; ++part) recover_part(part, lanes, x.middleCols(first, count));
     elements_->recover(lanes);
   }
 }
 
-/// Adds the right-hand sides at a member's ends to the node system.
-void StructuralProblem::reduce_member(std::size_t member, const ColumnLanes& lanes, Index count) {
-  const auto first = static_cast<std::size_t>(structure_.mesh.first[member]);
-  const auto elements = static_cast<std::size_t>(structure_.mesh.first[member + 1]) - first;
+/// Adds the right-hand sides at the ends of a part of a member to the node system.
+void StructuralProblem::reduce_part(std::size_t part, const ColumnLanes& lanes, Index count) {
+  const auto first = static_cast<std::size_t>(first_of(part));
+  const auto elements = static_cast<std::size_t>(first_of(part + 1)) - first;
   const CondensedForces ends =
-      chains_[member].reduce(std::span(condensed_forces_).subspan(first, elements),
-                             std::span(structure_.dofs).subspan(first, elements), lanes);
+      chains_[part].reduce(std::span(condensed_forces_).subspan(first, elements),
+                           std::span(structure_.dofs).subspan(first, elements), lanes);
   const std::array<int, 3>& start = structure_.dofs[first].a;
   const Lanes3 ra = transposed_times(axes_of(start), ends.ra);
   for (Index i = 0; i < count; ++i) {
     for (int c = 0; c < 3; ++c) {
       if (!is_fixed(start[c])) node_rhs_(start[c], i) += ra[c][i];
-      node_rhs_(multiplier(member) + c, i) = ends.rm[c][i];
+      node_rhs_(multiplier(part) + c, i) = ends.rm[c][i];
     }
   }
 }
@@ -457,15 +465,15 @@ void StructuralProblem::solve_nodes(Eigen::Ref<VectorXd> rhs, Eigen::Ref<VectorX
   for (std::size_t i = 0; i < free_.size(); ++i) rhs[free_[i]] = reduced[static_cast<Index>(i)];
 }
 
-/// Writes a member's end forces and the solution at its inner nodes.
-void StructuralProblem::recover_member(std::size_t member, const ColumnLanes& lanes,
-                                       Eigen::Ref<MatrixXd> x) const {
-  const auto first = static_cast<std::size_t>(structure_.mesh.first[member]);
-  const auto elements = static_cast<std::size_t>(structure_.mesh.first[member + 1]) - first;
+/// Writes the end forces of a part of a member and the solution between its elements.
+void StructuralProblem::recover_part(std::size_t part, const ColumnLanes& lanes,
+                                     Eigen::Ref<MatrixXd> x) const {
+  const auto first = static_cast<std::size_t>(first_of(part));
+  const auto elements = static_cast<std::size_t>(first_of(part + 1)) - first;
   x.middleRows<3>(structure_.dofs[first + elements - 1].m) =
-      node_rhs_.middleRows<3>(multiplier(member)).leftCols(x.cols());
-  chains_[member].recover(std::span(condensed_forces_).subspan(first, elements),
-                          std::span(structure_.dofs).subspan(first, elements), lanes);
+      node_rhs_.middleRows<3>(multiplier(part)).leftCols(x.cols());
+  chains_[part].recover(std::span(condensed_forces_).subspan(first, elements),
+                        std::span(structure_.dofs).subspan(first, elements), lanes);
 }
 
 /// Transforms the nodal rows of x from support axes.
@@ -593,7 +601,7 @@ double StructuralProblem::least_force() const {
 
 double StructuralProblem::critical_load_scale(const VectorXd& unit_response) const {
   double scale = std::numeric_limits<double>::infinity();
-  for (std::size_t m = 0; m < members_; ++m) {
+  for (std::size_t m = 0; m < structure_.euler_loads.size(); ++m) {
     const double force = largest_axial_force(m, unit_response);
     if (force > least_force()) scale = std::min(scale, structure_.euler_loads[m] / force);
   }
@@ -602,10 +610,10 @@ double StructuralProblem::critical_load_scale(const VectorXd& unit_response) con
 
 double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_response) const {
   double largest = 0.0;
-  for (std::size_t m = 0; m < members_; ++m)
+  for (std::size_t m = 0; m < structure_.euler_loads.size(); ++m)
     largest = std::max(largest, largest_axial_force(m, unit_response));
   double scale = 0.0;
-  for (std::size_t m = 0; m < members_; ++m) {
+  for (std::size_t m = 0; m < structure_.euler_loads.size(); ++m) {
     const double force = largest_axial_force(m, unit_response);
     if (force > std::max(ProblemTolerances::small_axial_force * largest, least_force()))
       scale = std::max(scale, (structure_.euler_loads[m] + structure_.foundation_loads[m]) / force);
@@ -673,6 +681,8 @@ double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y
     gaps = std::max(gaps, f.segment(dofs.s, 3 * p + 3).lpNorm<Eigen::Infinity>());
     for (const int a : dofs.a) displacement = std::max(displacement, std::abs(y[a]));
   }
+  for (int i = structure_.before_elements() - structure_.stops; i < structure_.before_elements(); ++i)
+    gaps = std::max(gaps, std::abs(f[i]));
   return std::max(force > 0.0 ? forces / force : forces, gaps / displacement);
 }
 

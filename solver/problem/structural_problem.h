@@ -28,6 +28,11 @@ namespace snapthrough {
 ///   [ K_s + springs   X^T   .  ] [u_nodes]
 ///   [ X               -F    I  ] [m_member]     (I acts on its end node)
 ///
+/// with a block also for each part of a member between nodes at which stops act, and for each stop of a row g
+///
+///   [ .   g  ] [u_node]
+///   [ g^T -c ] [force ]      (see problem/node_spring_work.h)
+///
 /// Couplings between elements are added to its solutions (CoupledSolution). Holds k H H^T add a block with
 /// one unknown force per motion: [ . sqrt(k) H ; . -1 ].
 ///
@@ -50,6 +55,7 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] double residual_rounding(const Eigen::VectorXd& y, double lambda) const override;
 
   [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
+  [[nodiscard]] bool may_kink() const override { return structure_.one_sided || !structure_.curves.empty(); }
   [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
                                          const Eigen::VectorXd& rate) const override;
   [[nodiscard]] double missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const override;
@@ -119,9 +125,9 @@ class StructuralProblem final : public EquilibriumProblem {
   /// Likewise, without the couplings between elements.
   void solve_uncoupled(Eigen::Ref<Eigen::MatrixXd> x);
   void add_couplings(TangentReport& report);
-  void reduce_member(std::size_t member, const ColumnLanes& lanes, Eigen::Index count);
+  void reduce_part(std::size_t part, const ColumnLanes& lanes, Eigen::Index count);
   void solve_nodes(Eigen::Ref<Eigen::VectorXd> rhs, Eigen::Ref<Eigen::VectorXd> reduced);
-  void recover_member(std::size_t member, const ColumnLanes& lanes, Eigen::Ref<Eigen::MatrixXd> x) const;
+  void recover_part(std::size_t part, const ColumnLanes& lanes, Eigen::Ref<Eigen::MatrixXd> x) const;
   void turn_from_supports(Eigen::Ref<Eigen::VectorXd> x) const;
   void add_follower_loads(const Eigen::VectorXd& y, double lambda, TangentReport& report);
   /// Factors on the proportional and the constant actions at a load factor.
@@ -156,28 +162,31 @@ class StructuralProblem final : public EquilibriumProblem {
   void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
   void plan_nodes();
   void assemble_nodes();
-  void fill_member(std::size_t member, Eigen::MatrixXd& block) const;
+  void fill_part(std::size_t part, Eigen::MatrixXd& block) const;
   /// Moves the constrained displacements to the right-hand side.
   void subtract_fixed(const Eigen::Ref<const Eigen::VectorXd>& rhs,
                       Eigen::Ref<Eigen::VectorXd> reduced) const;
   void subtract_ground(Eigen::Ref<Eigen::MatrixXd> x) const;
-  /// First row of a member's end forces in the node system; displacement unknowns keep their index.
-  [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
-    return 3 * structure_.nodes + structure_.releases + 3 * static_cast<Eigen::Index>(member);
+  /// First row of the end forces of a part of a member between nodes, in the node system; displacements and
+  /// forces of stops keep their index.
+  [[nodiscard]] Eigen::Index multiplier(std::size_t part) const {
+    return structure_.before_elements() + 3 * static_cast<Eigen::Index>(part);
   }
+  /// First element of a part of a member between nodes.
+  [[nodiscard]] int first_of(std::size_t part) const { return structure_.parts_between_nodes[part]; }
   [[nodiscard]] std::array<double, 2> turn_of(int dof) const;
   [[nodiscard]] Eigen::Matrix3d axes_of(const std::array<int, 3>& dofs) const;
   [[nodiscard]] bool is_fixed(Eigen::Index scalar) const;
 
   const Structure& structure_;
   std::stop_token stop_;
-  std::size_t members_;
+  std::size_t parts_;  ///< number of parts of members between nodes
   std::vector<CondensedElement> condensed_;
   std::vector<CondensedForces> condensed_forces_;
   std::vector<std::array<double, 2>> turns_;  ///< cosine and sine of the support angle at each node
   std::vector<int> inclined_;                 ///< nodes with an inclined support
-  std::vector<Chain> chains_;
-  std::vector<Eigen::Index> free_;  ///< rows of the node system that are unknown
+  std::vector<Chain> chains_;                 ///< one per part of a member between nodes
+  std::vector<Eigen::Index> free_;            ///< rows of the node system that are unknown
   std::vector<Eigen::Index> fixed_;
   std::vector<std::vector<int>> node_rows_;   ///< rows of each block of the node system
   std::vector<Eigen::MatrixXd> node_blocks_;  ///< blocks of members, node springs and held nodes

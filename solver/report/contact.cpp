@@ -83,8 +83,8 @@ void ContactZones::count(const Eigen::VectorXd& y, std::vector<int>& zones) cons
     zones.push_back(
         static_cast<int>(contact_intervals(structure_, model_, y, foundation, Rounding::last_places).size()));
   for (const std::size_t i : springs_) {
-    const double moved = reading_of(structure_, model_, i, y).displacement;
-    zones.push_back(moved > structure_.spring_laws[i].law.gap + Rounding::last_places ? 1 : 0);
+    const double depth = reading_of(structure_, model_, i, y).depth;
+    zones.push_back(depth > Rounding::last_places ? 1 : 0);
   }
 }
 

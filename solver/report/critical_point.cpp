@@ -32,6 +32,7 @@ CriticalPoint critical_point(const Structure& structure, const CriticalEvent& ev
   point.negative_before = event.negative_before;
   point.negative_after = event.negative_after;
   point.multiplicity = event.multiplicity;
+  point.after_growth = event.after_growth;
   set_values(structure, event, point);
   return point;
 }

@@ -197,6 +197,15 @@ std::string driver(const RigidParts& parts, const Escape& escape) {
 
 }  // namespace
 
+std::string motion_of_escape(const Model& model, const FreeMotions& motions, const Escape& escape) {
+  const MovingPart part(model, motions.parts(), escape.motion);
+  return part.members() + " can " + part.motion();
+}
+
+std::string driver_of_escape(const FreeMotions& motions, const Escape& escape) {
+  return driver(motions.parts(), escape);
+}
+
 std::string escape_text(const Model& model, const FreeMotions& motions, const Escape& escape) {
   const MovingPart part(model, motions.parts(), escape.motion);
   const std::string motion = part.members() + " can " + part.motion() + ": no support resists this, ";

@@ -16,4 +16,10 @@ namespace snapthrough {
 /// @param escape a motion of `motions`, which belong to `model`
 [[nodiscard]] std::string escape_text(const Model& model, const FreeMotions& motions, const Escape& escape);
 
+/// @brief The members with the largest motion, and that motion: "member "m" can turn clockwise about ...".
+[[nodiscard]] std::string motion_of_escape(const Model& model, const FreeMotions& motions,
+                                           const Escape& escape);
+/// @brief Name of the load that does most work on an escape.
+[[nodiscard]] std::string driver_of_escape(const FreeMotions& motions, const Escape& escape);
+
 }  // namespace snapthrough

@@ -1,5 +1,6 @@
 #include "solver/report/resultant.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -23,6 +24,7 @@ RigidMotions::RigidMotions(const Structure& structure, const Model& model, const
   for (int j = 0; j < structure.first_ground; ++j)
     set_node({3 * j, 3 * j + 1, 3 * j + 2}, (model.nodes[j].x - structure.origin[0]) / L,
              (model.nodes[j].y - structure.origin[1]) / L);
+  std::vector<bool> is_placed(static_cast<std::size_t>(structure.size), false);
   for (std::size_t e = structure.dofs.size(); e-- > 0;) {
     const MeshElement& cell = structure.mesh.elements[e];
     const ElementDofs& dofs = structure.dofs[e];
@@ -30,7 +32,14 @@ RigidMotions::RigidMotions(const Structure& structure, const Model& model, const
     const ElementShape shape = shape_of_element(structure, model, static_cast<int>(e));
     for (const bool end : {true, false}) {
       const StressFreePoint at = axis.at(axis.perfect().length() * (end ? cell.to : cell.from));
-      set_node(end ? dofs.b : dofs.a, at.x / L, at.y / L);
+      const std::array<int, 3>& node = end ? dofs.b : dofs.a;
+      const double before[2] = {rotation_[node[1]], -rotation_[node[0]]};
+      set_node(node, at.x / L, at.y / L);
+      const auto j = static_cast<std::size_t>(node[0]);
+      if (is_placed[j])
+        apart_ =
+            std::max(apart_, std::hypot(rotation_[node[1]] - before[0], -rotation_[node[0]] - before[1]));
+      is_placed[j] = true;
     }
     for (int q = 0; q < p; ++q) {
       rotation_[dofs.v + q] = -(shape.t[q][1] + moved * y[dofs.v + p + q]);
@@ -41,6 +50,11 @@ RigidMotions::RigidMotions(const Structure& structure, const Model& model, const
 
 Wrench RigidMotions::work(const Eigen::VectorXd& forces) const {
   return {forces.dot(x_), forces.dot(y_), forces.dot(rotation_)};
+}
+
+Wrench RigidMotions::work_without_sign(const Eigen::VectorXd& forces) const {
+  const Eigen::VectorXd sizes = forces.cwiseAbs();
+  return {sizes.dot(x_), sizes.dot(y_), sizes.dot(rotation_.cwiseAbs())};
 }
 
 Wrench RigidMotions::work(const SparseRow& row) const {

@@ -28,6 +28,8 @@ class RigidMotions {
 
   /// Work of forces given in the rows of the problem (right-hand side).
   [[nodiscard]] Wrench work(const Eigen::VectorXd& forces) const;
+  /// Likewise, with the magnitudes of all terms added.
+  [[nodiscard]] Wrench work_without_sign(const Eigen::VectorXd& forces) const;
   /// Resultant of a unit force along a functional.
   [[nodiscard]] Wrench work(const SparseRow& row) const;
   /// @param support its stiffness is ignored
@@ -39,6 +41,9 @@ class RigidMotions {
   };
   [[nodiscard]] Reading value(const SupportSpring& support, const Eigen::VectorXd& y) const;
 
+  /// Largest distance between the ends of members that meet at a node. Mode imperfections move each end along
+  /// its own normal; the node passes forces from one to the other without the moment of that distance.
+  [[nodiscard]] double apart() const { return apart_; }
   /// Converts to the model's units, with the moment about the origin of the model's axes.
   [[nodiscard]] Resultant unscaled(const Wrench& scaled) const;
 
@@ -46,6 +51,7 @@ class RigidMotions {
   const Structure& structure_;
   Eigen::VectorXd x_, y_;     ///< ones at the rows of the translations
   Eigen::VectorXd rotation_;  ///< displacements of a unit rotation about the origin
+  double apart_ = 0.0;
 };
 
 }  // namespace snapthrough

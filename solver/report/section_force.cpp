@@ -152,9 +152,10 @@ void SectionForces::add_springs(const Eigen::VectorXd& y) {
     if (at.member != model_.members[cell_.member].id) continue;
     const MeshPlace place = place_of(structure_.mesh, cell_.member, at.fraction);
     if (place.element != element_) continue;
-    const SpringLaw& spring = structure_.spring_laws[i];
-    const auto& row = spring.row;
-    const double force = -spring.law.reaction(reading_of(structure_, model_, i, y).displacement);
+    // a stop at the end of a member acts on the node
+    if (structure_.spring_laws[i].force_unknown >= 0 && place.xi == 1.0) continue;
+    const auto& row = structure_.spring_laws[i].row;
+    const double force = -reading_of(structure_, model_, i, y).force;
     points_.push_back({place.xi, {force * row[0], force * row[1], force * row[2]}});
   }
 }

@@ -54,10 +54,12 @@ class SectionForces {
       return std::any_of(contact.begin(), contact.end(),
                          [xi](const auto& part) { return part.from <= xi && xi <= part.to; });
     }
-    /// Whether the part beyond a section begins in contact; the section at an end of contact is beyond it.
+    /// Whether the part beyond a section begins in contact; the section at an end of contact is beyond it. A
+    /// member that touches at one point has no contact beside it.
     [[nodiscard]] bool is_cut(double xi) const {
       return std::any_of(contact.begin(), contact.end(), [xi](const auto& part) {
-        return part.from <= xi && (xi < part.to || (xi == 1.0 && part.to == 1.0));
+        return part.to - part.from > kOnePlace && part.from <= xi &&
+               (xi < part.to || (xi == 1.0 && part.to == 1.0));
       });
     }
   };

@@ -12,6 +12,7 @@
 #include "solver/discrete/layer_state.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
+#include "solver/numeric/number_text.h"
 #include "solver/report/contact.h"
 #include "solver/report/rod_state.h"
 #include "solver/report/section_force.h"
@@ -123,8 +124,19 @@ State make_state(const Structure& structure, const Model& model, const Eigen::Ve
   state.members = member_states(structure, model, y, lambda, points);
   for (std::size_t i = 0; i < model.foundations.size(); ++i)
     state.foundations.push_back(foundation_state(structure, model, y, static_cast<int>(i), points));
-  add_forces_on_structure(structure, model, y, lambda, state);
+  static_cast<void>(add_forces_on_structure(structure, model, y, lambda, state));
   return state;
+}
+
+double imbalance(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda) {
+  State forces;
+  return add_forces_on_structure(structure, model, y, lambda, forces);
+}
+
+std::string imbalance_text(double load_factor, double left) {
+  return "the state that was found at load factor " + number(load_factor) +
+         " is no equilibrium and is not reported: its actions and reactions leave " + rounded(left) +
+         " of the largest of them";
 }
 
 std::vector<double> contact_fractions(const Structure& structure, const Model& model,

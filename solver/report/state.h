@@ -3,6 +3,7 @@
 /// Reported states of a structure: shape, section forces, reactions, contact.
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "solver/discrete/structure.h"
@@ -23,6 +24,20 @@ namespace snapthrough {
 /// @pre points >= 2
 [[nodiscard]] State make_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                                double lambda, int points);
+
+/// Limits of a state that may be reported; ratios. Source: rounding leaves 1e-12 in random structures.
+struct StateLimits {
+  static constexpr double imbalance = 1e-9;  ///< sum of all actions and reactions, see imbalance()
+};
+
+/// @brief What is left of the sum of all actions and reactions in a state, over the largest force and the
+/// largest moment among them. The reactions are those that make_state() reports.
+/// @param y, lambda as for make_state()
+[[nodiscard]] double imbalance(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+                               double lambda);
+
+/// Sentence on a state that is not reported because of its imbalance().
+[[nodiscard]] std::string imbalance_text(double load_factor, double left);
 
 /// @brief Fraction of each foundation's range in contact; 1 for bilateral foundations.
 [[nodiscard]] std::vector<double> contact_fractions(const Structure& structure, const Model& model,

@@ -11,10 +11,12 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/discrete/layer_state.h"
+#include "solver/discrete/stops.h"
 #include "solver/model/id_index.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/resultant.h"
+#include "solver/report/state.h"
 
 namespace snapthrough {
 namespace {
@@ -43,8 +45,9 @@ SpringForce force_of(const Structure& structure, const Model& model, std::size_t
   SpringReading reading = reading_of(structure, model, index, y);
   out.row = std::move(reading.row);
   out.displacement = reading.displacement;
-  out.force = spring.law.reaction(out.displacement);
-  out.closed = spring.law.acts(out.displacement);
+  out.force = reading.force;
+  out.closed = spring.law.stiffness > 0.0 && (!spring.law.one_sided || reading.depth > 0.0);
+  if (spring.force_unknown >= 0) return out;  // the force is an unknown
   double size = spring.law.gap;
   for (const auto& [at, weight] : out.row.entries) size += std::abs(weight * y[at]);
   if (out.force != 0.0)
@@ -73,8 +76,11 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
                                in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
                                at.closed,
                                {}});
-    if (spring.at.node.empty()) continue;
-    for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
+    if (!spring.at.node.empty())
+      for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
+    else if (const SpringLaw& law = structure.spring_laws[i]; law.force_unknown >= 0)
+      on_nodes.segment<3>(3 * static_cast<Eigen::Index>(node_of_stop(structure, model, spring))) -=
+          at.force * Eigen::Vector3d(law.row[0], law.row[1], law.row[2]);
   }
   return on_nodes;
 }
@@ -198,7 +204,8 @@ double largest_force(const Structure& structure, const VectorXd& y, const Vector
 /// rounding: the displacements have converged, so that the residual comes from stiff supports, whose
 /// reactions equilibrium determines better than stiffness times penetration.
 /// @param largest largest other force; a residual above the corrector's tolerance and above rounding stays
-void balance(const Wrench& others, double largest, std::vector<Bearing>& bearings) {
+/// @return what is left of the sum
+Wrench balance(const Wrench& others, double largest, std::vector<Bearing>& bearings) {
   Wrench left = others;
   double rounding = 0.0;
   for (const Bearing& bearing : bearings) {
@@ -211,15 +218,59 @@ void balance(const Wrench& others, double largest, std::vector<Bearing>& bearing
   const double size = std::max({std::abs(left[0]), std::abs(left[1]), std::abs(left[2])});
   if (rounding == 0.0 ||
       size > std::max(CorrectorOptions{}.largest_residual * largest, Rounding::element_sum * rounding))
-    return;
+    return left;
   for (Bearing& bearing : bearings)
     for (int c = 0; c < 3; ++c) bearing.wrench[c] -= bearing.rounding / rounding * left[c];
+  return {};
+}
+
+/// Force and moment at which rounding of the displacements counts as no force, over StateLimits::imbalance:
+/// imposed strains that nothing resists leave forces of that size.
+double rounding_of_forces(const Structure& structure, const VectorXd& y) {
+  const double softest = *std::min_element(structure.euler_loads.begin(), structure.euler_loads.end());
+  double displacement = Rounding::displacement;  // where nothing moves
+  for (const ElementDofs& dofs : structure.dofs)
+    for (const std::array<int, 3>& end : {dofs.a, dofs.b})
+      for (const int dof : end) displacement = std::max(displacement, std::abs(y[dof]));
+  return Rounding::force / StateLimits::imbalance * softest * displacement;
+}
+
+/// Largest moment that the distances between ends of members that meet at a node may leave, see
+/// RigidMotions::apart().
+double moment_between_ends(const Structure& structure, const RigidMotions& rigid, const VectorXd& y) {
+  double forces = 0.0;
+  for (std::size_t m = 0; m + 1 < structure.mesh.first.size(); ++m) {
+    double largest = 0.0;
+    for (int e = structure.mesh.first[m]; e < structure.mesh.first[m + 1]; ++e)
+      largest = std::max(largest, y.segment<2>(structure.dofs[static_cast<std::size_t>(e)].m).norm());
+    forces += 2.0 * largest;
+  }
+  return rigid.apart() * forces;
+}
+
+/// What is left of the sum of all forces on a structure, over the largest force and moment that acts on it.
+/// @param loads, reactions in the rows of the problem
+/// @param least force and moment that count at least
+double relative_imbalance(const RigidMotions& rigid, double least, const VectorXd& loads,
+                          const VectorXd& reactions, const std::vector<Bearing>& bearings,
+                          const Wrench& left) {
+  const Wrench actions = rigid.work_without_sign(loads);
+  const Wrench supports = rigid.work_without_sign(reactions);
+  double force = std::max({actions[0], actions[1], supports[0], supports[1], least});
+  double moment = std::max(actions[2], supports[2]);
+  for (const Bearing& bearing : bearings) {
+    force = std::max({force, std::abs(bearing.wrench[0]), std::abs(bearing.wrench[1])});
+    moment = std::max(moment, std::abs(bearing.wrench[2]));
+  }
+  const double forces = std::max(std::abs(left[0]), std::abs(left[1]));
+  return std::max(force > 0.0 ? forces / force : forces,
+                  std::abs(left[2]) / std::max({moment, force, std::numeric_limits<double>::min()}));
 }
 
 }  // namespace
 
-void add_forces_on_structure(const Structure& structure, const Model& model, const VectorXd& y, double lambda,
-                             State& state) {
+double add_forces_on_structure(const Structure& structure, const Model& model, const VectorXd& y,
+                               double lambda, State& state) {
   const RigidMotions rigid(structure, model, y);
   const std::unique_ptr<ElementWork> elements = structure.elements->make_work();
   std::vector<Bearing> bearings;  // resultants of springs, then foundations
@@ -231,13 +282,14 @@ void add_forces_on_structure(const Structure& structure, const Model& model, con
   elements->add_pressure_load(y, {lambda, 1.0}, structure.geometry == Geometry::linear, loads);
   FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {lambda, 1.0}, loads);
   state.loads = rigid.unscaled(rigid.work(loads));
-  loads += reactions;
-  balance(rigid.work(loads), largest_force(structure, y, reactions), bearings);
+  Wrench left = balance(rigid.work(loads + reactions), largest_force(structure, y, reactions), bearings);
+  left[2] = std::max(std::abs(left[2]) - moment_between_ends(structure, rigid, y), 0.0);
   const std::size_t first = model.springs.size();
   for (std::size_t i = 0; i < state.springs.size(); ++i)
     state.springs[i].resultant = rigid.unscaled(bearings[i].wrench);
   for (std::size_t i = 0; i < state.foundations.size(); ++i)
     state.foundations[i].resultant = rigid.unscaled(bearings[first + i].wrench);
+  return relative_imbalance(rigid, rounding_of_forces(structure, y), loads, reactions, bearings, left);
 }
 
 }  // namespace snapthrough

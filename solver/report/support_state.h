@@ -17,7 +17,9 @@ namespace snapthrough {
 /// mesh.
 /// @param y unknowns of the structure's problem in equilibrium at `lambda`, with the constant actions in full
 /// @param state with the model's foundations in their order
-void add_forces_on_structure(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                             double lambda, State& state);
+/// @return what is left of the sum of all forces and moments on the structure, over the largest force and
+/// the largest moment that acts on it; zero where nothing acts
+double add_forces_on_structure(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+                               double lambda, State& state);
 
 }  // namespace snapthrough

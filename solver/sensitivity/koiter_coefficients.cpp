@@ -22,7 +22,7 @@ std::optional<KoiterCoefficients> koiter_coefficients(const Model& model, const 
                                                       const LocatedPoint& at, int points,
                                                       int& factorisations) {
   const CriticalEvent& event = at.event;
-  if (event.type != CriticalType::bifurcation || event.cause == CriticalCause::contact ||
+  if (event.type != CriticalType::bifurcation || event.cause != CriticalCause::smooth ||
       event.multiplicity > 1 || structure.unsymmetric())
     return std::nullopt;
   StructuralProblem problem(structure);

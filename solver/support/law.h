@@ -188,6 +188,8 @@ struct SpringLaw {
   std::shared_ptr<const ReactionCurve> curve;  ///< curve of `law`; null: linear
   double length = 0.0;                         ///< length of a rod (Spring::rod); 0: fixed direction
   int ground = -1;                             ///< unknown of the ground's displacement along x; -1: at rest
+  double give = 0.0;                           ///< compliance of a stop whose force is an unknown; 0: none is
+  int force_unknown = -1;                      ///< that unknown; -1: the law gives the force
 };
 
 /// Largest magnitude of a number along its member.

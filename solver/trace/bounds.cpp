@@ -57,6 +57,17 @@ BoundedEnd end_at(PointSolver& solver, const Crossing& crossing, const PathPoint
   return {root.root, found, crossing.end};
 }
 
+/// Locates the end of a step on a bound of the load, at that load; elsewhere where the step began beyond it.
+BoundedEnd end_at_load(PointSolver& solver, const Crossing& crossing, const PathPoint& from,
+                       const PathPoint& to, bool kink) {
+  // a step that loses the path before the bound may have its other end on another path
+  const BoundedEnd end = end_at(solver, crossing, from, to, kink);
+  if (!end.found || (crossing.value(from) > 0.0) == (crossing.value(to) > 0.0)) return end;
+  std::optional<PathPoint> at = point_at_load(solver, from, to, crossing.bound);
+  const bool found = at.has_value();
+  return {found ? *std::move(at) : to, found, crossing.end};
+}
+
 }  // namespace
 
 std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rules, const PathPoint& from,
@@ -68,6 +79,9 @@ std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rul
   if (rules.load)
     add(crossing_of({[](const PathPoint& point) { return point.lambda; }, *rules.load}, TraceEnd::load_factor,
                     to));
+  if (rules.capacity)
+    add(crossing_of({[](const PathPoint& point) { return point.lambda; }, rules.capacity->range},
+                    TraceEnd::capacity, to));
   if (rules.monitor) add(crossing_of(*rules.monitor, TraceEnd::monitor, to));
   if (rules.controlled) {
     const Quantity& controlled = *rules.controlled;
@@ -79,11 +93,12 @@ std::optional<BoundedEnd> first_bound(PointSolver& solver, const TraceRules& rul
   }
   std::optional<BoundedEnd> first;
   for (const Crossing& crossing : crossings) {
-    BoundedEnd end = end_at(solver, crossing, from, to, kink);
+    const bool is_load = crossing.end == TraceEnd::load_factor || crossing.end == TraceEnd::capacity;
+    BoundedEnd end =
+        is_load ? end_at_load(solver, crossing, from, to, kink) : end_at(solver, crossing, from, to, kink);
     if (first && end.found && first->point.arc_length <= end.point.arc_length) continue;
     first = std::move(end);
     if (!first->found) break;
-    if (crossing.end == TraceEnd::load_factor) move_to_load(solver, crossing.bound, first->point);
   }
   return first;
 }

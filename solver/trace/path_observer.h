@@ -2,6 +2,7 @@
 /// @file
 /// Receives what is found along a path.
 
+#include <cstddef>
 #include <vector>
 
 #include "solver/events/contact_change.h"
@@ -29,6 +30,9 @@ class PathObserver {
   virtual void on_touching(const PathPoint&) {}
   /// The last point once more, with fewer pinned motions.
   virtual void on_unpinned(const PathPoint&) {}
+  /// @brief The state at a load of TraceRules::asked on the step that on_step() tells next.
+  /// @param row AskedLoad::row of that load
+  virtual void on_asked(std::size_t /*row*/, const PathPoint& /*state*/) {}
   /// An accepted step: all points of the path between its ends are on one Segment.
   virtual void on_step(const PathPoint& /*from*/, const PathPoint& /*to*/) {}
 };

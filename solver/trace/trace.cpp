@@ -9,6 +9,7 @@
 #include "solver/events/locate.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/path/pinned_motions.h"
+#include "solver/trace/asked_states.h"
 #include "solver/trace/bifurcations_ahead.h"
 #include "solver/trace/bounds.h"
 #include "solver/trace/imperfect_bifurcations.h"
@@ -44,6 +45,7 @@ class Tracer {
         solver_(follower.solver()),
         rules_(rules),
         observers_(observers),
+        asked_(solver_, rules.asked),
         broken_(rules, follower.norm()) {}
 
   TraceOutcome run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop);
@@ -53,6 +55,7 @@ class Tracer {
   [[nodiscard]] bool begin(PathPoint& from);
   [[nodiscard]] bool next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& accepted);
   [[nodiscard]] bool stop_before_step(const PathPoint& point, int steps, const std::stop_token& stop);
+  [[nodiscard]] bool leaves_capacity(const PathPoint& point);
   [[nodiscard]] bool unpinned_loses_stability(const PathPoint& from);
   void complete_step(const PathPoint& from, StepSize& size, PathPoint& to, TracedStep& step);
   [[nodiscard]] bool record(const PathPoint& from, PathPoint& to, TracedStep& step,
@@ -60,7 +63,7 @@ class Tracer {
   [[nodiscard]] bool report_events(const std::vector<CriticalEvent>& events);
   [[nodiscard]] bool ends_path(const CriticalEvent& event);
   void report(const CriticalEvent& event);
-  static void add_flutter(const PathPoint& from, CriticalEvent flutter, std::vector<CriticalEvent>& events);
+  static void add_growth(const PathPoint& from, CriticalEvent growth, std::vector<CriticalEvent>& events);
   void step_to_bifurcation(const std::vector<CriticalEvent>& events, const PathPoint& from, StepSize& size,
                            PathPoint& to);
   void find_modes(const PathPoint& from, PathPoint& to);
@@ -82,8 +85,11 @@ class Tracer {
   const PathObservers& observers_;
   TraceOutcome out_;
   int limit_points_ = 0;
-  double travelled_ = 0.0;   ///< sum of the displacements of all steps
-  SharedModes first_modes_;  ///< softest motions where the path begins, on one-sided supports
+  bool grows_ = false;                      ///< vibrations grow from a point of the path on
+  double travelled_ = 0.0;                  ///< sum of the displacements of all steps
+  std::optional<PathPoint> near_capacity_;  ///< last point near the capacity of supports, with a growing load
+  SharedModes first_modes_;                 ///< softest motions where the path begins, on one-sided supports
+  AskedStateSearch asked_;
   ImperfectBifurcations broken_;
 };
 
@@ -99,7 +105,8 @@ void Tracer::measure_arc(const PathPoint& from, std::vector<CriticalEvent>& even
 }
 
 bool Tracer::finish(TraceEnd end, const PathPoint& last) {
-  out_.end = end;
+  const bool gives_up = end == TraceEnd::displacement_bound || end == TraceEnd::step_underflow;
+  out_.end = gives_up && rules_.capacity && rules_.capacity->is_near(last.lambda) ? TraceEnd::capacity : end;
   out_.last = last;
   return true;
 }
@@ -124,14 +131,14 @@ void Tracer::report(const CriticalEvent& event) {
   tell([&](PathObserver& observer) { observer.on_critical(event); });
 }
 
-/// Adds the flutter that begins on a step to its critical points.
-void Tracer::add_flutter(const PathPoint& from, CriticalEvent flutter, std::vector<CriticalEvent>& events) {
+/// Adds the point of a step from which on vibrations grow to its critical points.
+void Tracer::add_growth(const PathPoint& from, CriticalEvent growth, std::vector<CriticalEvent>& events) {
   auto next = events.begin();
   int count = from.negative;
-  for (; next != events.end() && next->point.arc_length <= flutter.point.arc_length; ++next)
+  for (; next != events.end() && next->point.arc_length <= growth.point.arc_length; ++next)
     if (next->type != CriticalType::broken_bifurcation) count = next->negative_after;
-  flutter.negative_before = flutter.negative_after = count;
-  events.insert(next, std::move(flutter));
+  growth.negative_before = growth.negative_after = count;
+  events.insert(next, std::move(growth));
 }
 
 /// Whether a critical point that was just reported ends the path.
@@ -140,16 +147,21 @@ bool Tracer::ends_path(const CriticalEvent& event) {
   const bool lost = is_loss(event);
   const bool loss = rules_.first_loss_of_stability && lost;
   const bool last_limit = rules_.limit_points && limit_points_ >= *rules_.limit_points;
+  const bool exhausted =
+      !passed_by && event.type != CriticalType::flutter && rules_.capacity &&
+      rules_.capacity->is_near(event.point.lambda) &&
+      (rules_.capacity->is_at(event.point.lambda) || rules_.capacity->moves_rigidly(event));
   const bool too_many = !passed_by && is_too_unstable(event.point, event.negative_after);
-  if (!loss && !last_limit && !too_many) return false;
+  if (!loss && !last_limit && !too_many && !exhausted) return false;
   PathPoint last = event.point;
   // Newton's method ends on either side of a singular tangent
-  if (too_many || event.type == CriticalType::flutter)
+  if (too_many || grows_from(event))
     last.negative = event.negative_after;
   else if (event.null.size() > 0)
     last.negative = solver_.negative_at(last);
   out_.on_critical = true;
-  const TraceEnd end = loss         ? TraceEnd::critical_point
+  const TraceEnd end = exhausted    ? TraceEnd::capacity
+                       : loss       ? TraceEnd::critical_point
                        : last_limit ? TraceEnd::limit_points
                                     : TraceEnd::negative_eigenvalues;
   return finish(end, last);
@@ -164,8 +176,11 @@ bool Tracer::report_events(const std::vector<CriticalEvent>& events) {
       return finish(TraceEnd::rejoined, last);
     }
     if (is_limit(event.type)) ++limit_points_;
-    report(event);
-    if (ends_path(event)) return true;
+    CriticalEvent met = event;
+    met.after_growth = grows_;
+    grows_ = grows_ || grows_from(event);
+    report(met);
+    if (ends_path(met)) return true;
   }
   return false;
 }
@@ -192,9 +207,21 @@ void Tracer::find_modes(const PathPoint& from, PathPoint& to) {
   solver_.find_modes(to, from.holds == to.holds ? known : nullptr);
 }
 
+/// Whether a path near the capacity of its supports has turned, or jumped to another one, without a critical
+/// point that was found: on a plateau the load does not tell the sense of the path.
+bool Tracer::leaves_capacity(const PathPoint& point) {
+  if (!rules_.capacity) return false;
+  if (rules_.capacity->is_near(point.lambda) && point.lambda * point.tangent_lambda > 0.0) {
+    near_capacity_ = point;
+    return false;
+  }
+  return near_capacity_ && finish(TraceEnd::capacity, *near_capacity_);
+}
+
 /// What ends the path before the next step is tried; false when nothing does.
 bool Tracer::stop_before_step(const PathPoint& point, int steps, const std::stop_token& stop) {
   if (stop.stop_requested()) return finish(TraceEnd::cancelled, point);
+  if (leaves_capacity(point)) return true;
   if (is_too_unstable(point, point.negative)) return finish(TraceEnd::negative_eigenvalues, point);
   if (steps >= rules_.steps) return finish(TraceEnd::steps, point);
   if (follower_.norm().metric().norm(point.y, 0.0) > rules_.gradient || travelled_ > rules_.travel ||
@@ -228,6 +255,7 @@ bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
   }
   travelled_ += follower_.norm().metric().norm(to.y - from.y, 0.0);
   bool ended = report_events(reached);
+  if (!reached.empty()) near_capacity_.reset();
   if (ended) to = out_.last;
   const double least = ended || reached.empty() ? from.arc_length : reached.back().point.arc_length;
   to.arc_length = std::max(to.arc_length, beyond(least));
@@ -235,6 +263,9 @@ bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
   for (const ContactChange& change : step.changes)
     if (change.point.arc_length <= to.arc_length)
       tell([&](PathObserver& observer) { observer.on_contact(change); });
+  asked_.tell(from, to, [&](std::size_t row, const PathPoint& state) {
+    tell([&](PathObserver& observer) { observer.on_asked(row, state); });
+  });
   tell([&](PathObserver& observer) { observer.on_step(from, to); });
   // a bifurcation at the end of a step is reported as such, and has no count of its own
   if (ended || !step.onto_bifurcation) tell([&](PathObserver& observer) { observer.on_point(to); });
@@ -253,7 +284,10 @@ void Tracer::complete_step(const PathPoint& from, StepSize& size, PathPoint& to,
     recorrect_to_rounding(solver_, from, to);
   find_modes(from, to);
   if (step.outcome == StepOutcome::kinked) {
-    step.located = locate_at_kink(follower_, from, to, size.taken, rules_.locate);
+    LocateOptions options = rules_.locate;
+    // laws that bend to their plateau change the inertia at a kink
+    if (rules_.capacity) options.before_kink = CapacityRule::kink;
+    step.located = locate_at_kink(follower_, from, to, size.taken, options);
     return;
   }
   auto passed = bifurcations_stepped_over(solver_, from, to, bifurcation_bounds());
@@ -278,7 +312,8 @@ bool Tracer::unpinned_loses_stability(const PathPoint& from) {
 }
 
 /// Tries one step of the path: onto bifurcations that are predicted, or as the follower takes it. A step is
-/// taken back when its ends are on two paths, or when it crosses a bound at a point that is not found.
+/// taken back when its ends are on two paths, or when it crosses a bound or an asked load at a point that is
+/// not found.
 /// @param accepted whether `to` is the path's next point
 /// @return whether the path ends
 bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& accepted) {
@@ -298,8 +333,8 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
     StepVibrations vibrations = rules_.vibrations(from, to);
     if (vibrations.is_too_long && !step.onto_bifurcation)
       step.located = {{}, false, {}};
-    else if (vibrations.flutter)
-      add_flutter(from, *std::move(vibrations.flutter), step.located.events);
+    else if (vibrations.loss)
+      add_growth(from, *std::move(vibrations.loss), step.located.events);
   }
   const PathMetric& metric = follower_.norm().metric();
   const double cosine = metric.inner(from.tangent, from.tangent_lambda, to.tangent, to.tangent_lambda);
@@ -307,7 +342,9 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
   if (step.kink) measure_arc(from, step.located.events, to);
   const auto bound =
       step.located.same_path ? first_bound(solver_, rules_, from, to, step.kink) : std::nullopt;
-  if (!step.located.same_path || (bound && !bound->found)) {
+  // on the shortest steps no other state is found: the path goes on without it
+  if (!step.located.same_path || (bound && !bound->found) ||
+      (!asked_.look_on(from, bound ? bound->point : to) && size.taken > Gradients::tiny)) {
     follower_.reject(size);
     return false;
   }
@@ -331,7 +368,9 @@ bool Tracer::begin(PathPoint& from) {
   solver_.find_first_modes(from);
   tell([&](PathObserver& observer) { observer.on_point(from); });
   if (solver_.problem().one_sided()) first_modes_ = std::exchange(from.modes, nullptr);
-  return rules_.first_loss_of_stability && from.negative > 0 && finish(TraceEnd::unstable_at_start, from);
+  grows_ = rules_.grows_at_start;
+  return rules_.first_loss_of_stability && (from.negative > 0 || grows_) &&
+         finish(TraceEnd::unstable_at_start, from);
 }
 
 /// From point to point, until something ends the path.

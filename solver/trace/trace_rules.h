@@ -3,6 +3,7 @@
 /// What ends a path.
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -26,17 +27,60 @@ struct BoundedQuantity {
   std::array<double, 2> range{};
 };
 
+/// Limit loads of supports with a capacity, as small displacements have them (CapacityEnds).
+struct CapacityRule {
+  /// Share of a limit at which a path ends. The displacements of a hyperbolic law are a thousand times those
+  /// of its initial stiffness there, those of other laws less. Source: docs/decisions/0036.
+  static constexpr double reached = 0.999;
+  /// LocateOptions::before_kink: share of the displacement to which the point is found where a law bends.
+  static constexpr double kink = 1e-3;
+  std::array<double, 2> limits{};  ///< least and largest load factor that the supports hold; infinite: any
+  /// Range of the load factor that ends the path: the rest up to a limit takes displacements that grow
+  /// without bound.
+  std::array<double, 2> range{};
+  /// Whether the motion that loses its stiffness at a critical point moves each member as a whole.
+  std::function<bool(const CriticalEvent&)> moves_rigidly;
+
+  /// Whether a path that cannot go on at a load factor has met the capacity of its supports.
+  [[nodiscard]] bool is_near(double lambda) const { return is_within(near, lambda); }
+  /// Whether a critical point at a load factor is the limit itself, whatever motion is softest there.
+  [[nodiscard]] bool is_at(double lambda) const { return is_within(reached, lambda); }
+
+ private:
+  /// Share of a limit from which on a path that cannot go on has met it. Geometry, or the finite
+  /// displacements at which laws approach their capacity, take the rest; chosen.
+  static constexpr double near = 0.9;
+  [[nodiscard]] bool is_within(double share, double lambda) const {
+    return lambda < 0.0 ? lambda <= share * limits[0] : lambda >= share * limits[1];
+  }
+};
+
+/// A load factor at which the state of a path is wanted.
+struct AskedLoad {
+  std::size_t row = 0;  ///< number of the caller for the state
+  double load = 0.0;    ///< scaled load factor
+};
+
+/// Load factors at which the states of a path are wanted.
+struct AskedStates {
+  std::vector<AskedLoad> loads;
+  bool once = false;  ///< the first state at each load alone; else each one that the path passes
+};
+
 /// Stop rules in the path's own units (scaled load factors, scaled unknowns); empty rules do not stop.
 struct TraceRules {
   bool first_loss_of_stability = false;
   std::optional<int> limit_points;            ///< number of limit points, the last of which ends the path
   std::optional<std::array<double, 2>> load;  ///< range of the load factor
+  std::optional<CapacityRule> capacity;       ///< empty: supports hold any load
   std::optional<BoundedQuantity> monitor;
   std::optional<Quantity> controlled;  ///< ends the path where it turns back (displacement control)
   int steps = 1000;
-  ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for
-  double gradient = 4.0;   ///< norm of the displacement (rms gradient) at which a path is given up
-  double travel = 1000.0;  ///< that bound for the sum of all steps' displacements: members that wind up
+  AskedStates asked;            ///< a step over one of these loads is taken only where its state is found
+  bool grows_at_start = false;  ///< vibrations about the first point grow and oscillate (flutter)
+  ZoneCounter zones;            ///< empty: contact that begins or ends is not looked for
+  double gradient = 4.0;        ///< norm of the displacement (rms gradient) at which a path is given up
+  double travel = 1000.0;       ///< that bound for the sum of all steps' displacements: members that wind up
   /// Whether the beam theory no longer holds at a point, where a path is given up as well; empty: it holds.
   std::function<bool(const PathPoint&)> beyond_theory;
   /// A point with more negative eigenvalues ends the path, as a rule the critical point that leads there;
@@ -72,6 +116,7 @@ enum class TraceEnd {
   negative_eigenvalues,
   displacement_bound,
   load_bound,
+  capacity,
   cancelled,
   step_underflow,
   no_start

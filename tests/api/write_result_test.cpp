@@ -38,6 +38,7 @@ Result full_result() {
                         CriticalCause::contact,
                         Mode{{{"m", {0.0}, {1.0}, {0.5}, {3.0}}}},
                         true,
+                        false,
                         {{4, 5, 66.5}, {8, 5, {}}}},
                        {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
                        {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
@@ -73,8 +74,7 @@ Result full_result() {
   r.static_table =
       StaticTable{{0.5, 1.0}, {{"crown", {0.0, -0.25}}}, {0, {}}, {{"soil", {1.0, 0.5}}}, {{}, 0}};
   r.not_reached = {2.0};
-  const Extreme least{-1.0, 0.25, 0, 0.5};
-  const Extreme most{2.0, 0.75, 1, 1.5};
+  const Extreme least{-1.0, 0.25, 0, 0.5}, most{2.0, 0.75, 1, 1.5};
   r.extremes = {{"m", {least, most}, {most, most}, {least, least}, most}};
   r.warnings = {{"large_strain", "much"}};
   r.buckling = BucklingResult{{1.5, 2.5}, {1e-6, {}}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}}}}}};

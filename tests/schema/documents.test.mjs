@@ -20,7 +20,7 @@ const solver = sources('solver');
 const api = sources('api');
 const server = sources('server');
 
-const kFailures = [/\bfail\(\s*\w+,\s*(?:\w+ \? )?"([a-z_]+)"/g, /\bfail\(\s*\w+,\s*\w+ \? "[a-z_]+" : "([a-z_]+)"/g,
+const kFailures = [/\b(?:fail|give_up)\(\s*\w+,\s*(?:\w+ \? )?"([a-z_]+)"/g, /\bfail\(\s*\w+,\s*\w+ \? "[a-z_]+" : "([a-z_]+)"/g,
                    /TraceEnd::\w+,\s*"([a-z_]+)"[^}]*?,\s*true\}/g];
 const kEnds = [/TraceEnd::\w+,\s*"([a-z_]+)"/g, /termination = "([a-z_]+)"/g];
 const kFindings = [/\breport\(\s*"([a-z_]+)"/g, /\breport\.add\([^"]*"([a-z_]+)"/g, /\.report\(\s*(?:\w+ \? )?"([a-z_]+)"/g];

@@ -32,6 +32,7 @@ const kBetweenFields = {
   not_supported: 'a pointer and what the model has there; the reaction of a member and what is on it',
   too_many_findings: 'the number of findings',
   memory_limit: 'members, elements and order, against a setting of the service',
+  enters_obstacle: 'a support, and a rigid foundation or its outline',
 };
 /** The same for codes that other rules have too: by pointer or text. */
 const kBetweenFieldsAt = [

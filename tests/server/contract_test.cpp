@@ -74,6 +74,7 @@ bool needs_several_fields(const Finding& finding) {
                                             "needs_one_sided",    // gap and reaction
                                             "needs_member",       // component and location of a monitor
                                             "not_fixed",          // fixed and displacement of a support
+                                            "enters_obstacle",    // supports and rigid foundations
                                             "no_load",           "mechanism",  // the model as a whole
                                             "no_mass",                         // masses and frequencies
                                             "unsupported",     // pairs of fields that do not go together

@@ -209,8 +209,8 @@ T read_as(std::initializer_list<char> bytes) {
 TEST(Record, BytesThatAreNoValueOfTheirTypeAreRefused) {
   EXPECT_TRUE(read_as<bool>({1}));
   EXPECT_THROW(read_as<bool>({2}), std::runtime_error);
-  EXPECT_EQ(read_as<CriticalType>({4, 0, 0, 0}), CriticalType::flutter);
-  EXPECT_THROW(read_as<CriticalType>({5, 0, 0, 0}), std::runtime_error);
+  EXPECT_EQ(read_as<CriticalType>({5, 0, 0, 0}), CriticalType::capacity);
+  EXPECT_THROW(read_as<CriticalType>({6, 0, 0, 0}), std::runtime_error);
   EXPECT_THROW(read_as<CriticalCause>({-1, -1, -1, -1}), std::runtime_error);
   EXPECT_THROW(read_as<int>({1, 0, 0}), std::runtime_error);
   EXPECT_THROW(read_as<std::vector<double>>({0, 0, 0, 0, 0, 0, 0, 32}), std::runtime_error)

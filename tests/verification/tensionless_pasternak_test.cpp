@@ -213,5 +213,24 @@ TEST(ArchOnPasternakGround, IsInBalanceOnACoarseMesh) {
   EXPECT_FALSE(result.states.back().foundations[0].contact.empty());
 }
 
+/// A pinned beam that its load lifts off the ground touches it at its ends alone, within rounding. The shear
+/// forces there are q L / 2 and -q L / 2, however the beam is drawn.
+TEST(LiftedBeamOnPasternakGround, HasTheShearForcesOfTheBeamAlone) {
+  for (const bool reversed : {false, true}) {
+    Model model = straight(6.0, 3000.0, 2e6, "xy", "y");
+    if (reversed) std::swap(model.members[0].start, model.members[0].end);
+    model.foundations = {one_sided("m", 800.0, reversed ? Side::left : Side::right)};
+    model.foundations[0].shear_stiffness = 2000.0;
+    model.loads = {DistributedLoad{"m", {0.0, 4.0}, {0.0, 1.0}, LoadMeasure::length, Pattern::proportional}};
+    for (const Geometry geometry : {Geometry::linear, Geometry::nonlinear}) {
+      const Result result = solve_soundly(model, static_on(fixed_mesh(8, 4), geometry));
+      const std::vector<double> shear = member_of(result.states.at(0), "m").shear_force;
+      // large displacements: cos of the slope, q L^3 / 24 EI = 0.012
+      EXPECT_NEAR(std::abs(shear.front()), 12.0, 0.002) << reversed;
+      EXPECT_NEAR(shear.back(), -shear.front(), 1e-8) << reversed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace snapthrough

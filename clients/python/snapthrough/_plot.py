@@ -53,7 +53,7 @@ def _path(result: "Result", ax: Any) -> None:
         for first, end, stable in _runs(list(branch.negative_eigenvalues)):
             line, = ax.plot(along[first:end], branch.load_factor[first:end], "-" if stable else "--", color=colour)
             colour = line.get_color()
-    marks = {"limit_max": "^", "limit_min": "v", "flutter": "X"}
+    marks = {"limit_max": "^", "limit_min": "v", "flutter": "X", "capacity": "_"}
     for point in result.critical_points:
         at = point.monitors[monitor] if monitor else point.arc_length
         ax.plot([at], [point.load_factor], marks.get(point.type, "o"), color="black", markersize=5)

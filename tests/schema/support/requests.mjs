@@ -72,6 +72,16 @@ const portal = () => ({
   load_cases: [{id: 'roof', grows: true, loads: [{type: 'distributed', member: 'beam', force: {along: [[0, [0, -1]], [1, [0, -2]]]}}]}],
 });
 
+/** A stiff pile in soil of limited strength, pushed at its head: the soil carries 0.414 of its strength times the length. */
+const pile = () => ({
+  nodes: [{id: 'head', x: 0, y: 0}, {id: 'tip', x: 0, y: -4}],
+  sections: [{id: 'shaft', EA: 1e6, EI: 1e6}],
+  members: [{id: 'pile', start: 'head', end: 'tip', section: 'shaft'}],
+  supports: [{node: 'tip', fixed: ['y']}],
+  foundations: [{id: 'soil', member: 'pile', law: {type: 'tanh', stiffness: 5000, capacity: 50}}],
+  loads: [{type: 'point', at: {node: 'head'}, force: [1, 0]}],
+});
+
 /** A request whose structure may move without stiffness beside the path: answered with that motion, or with a failure. */
 export const loose = () => ({model: ring(), analysis: {type: 'critical'}});
 
@@ -117,6 +127,7 @@ export function answerable() {
   add('static, unstable', arch(), {type: 'static', load_factors: [1, 24], unstable: 'follow'});
   add('path, bound on negative eigenvalues', arch(), {type: 'path', stop: {negative_eigenvalues: 0}});
   add('no buckling', {...column(), loads: [{type: 'point', at: {node: 'head'}, force: [0, 1]}]}, {type: 'buckling'});
+  add('critical, capacity of supports', pile(), {type: 'critical'});
   add('imperfect', {...column(), imperfections: [{type: 'mode', number: 1, amplitude: 1e-3}]}, {type: 'path', stop: {steps: 10}});
   for (const norm of ['rms', 'max']) add(`worst imperfection, ${norm}`, {...arch(), imperfections: [{type: 'worst', norm, amplitude: 1e-2}]}, {type: 'critical'});
   return all;
@@ -130,6 +141,7 @@ export function failing() {
   const touching = {...column(), sections: [{id: 'shaft', EA: 1e7, EI: 100, mass: 1}],
                     foundations: [{id: 'base', member: 'column', stiffness: 10, reaction: 'compression_only'}]};
   return {
+    capacity: {model: pile(), analysis: {type: 'static', load_factors: [60, 120]}},
     beyond_limit_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5], unstable: 'follow'}},
     beyond_critical_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5]}},
     fewer_modes: {model: column(), analysis: {type: 'buckling', modes: 50, discretization: {elements: 2, order: 1}}},

@@ -1,6 +1,8 @@
 /// What diagnostics.skipped says, and that it was so.
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "solver/solve.h"
 #include "tests/solver/structures.h"
 
@@ -72,6 +74,15 @@ TEST(Skipped, BasesWithoutStiffness) {
   testing::add_soil(model, 0.0);
   const Result result = solve(model, analysis_of(AnalysisType::path, StateOutput::all));
   EXPECT_THAT(result.diagnostics.skipped, ElementsAre("foundation soil: stiffness 0"));
+}
+
+/// A rigid foundation acts with the stiffness that the elements resolve, and is named.
+TEST(Skipped, WhatElementsDoNotResolveOfARigidBase) {
+  Model model = testing::arch(20.0, 420.0, 1.4);
+  testing::add_soil(model, 1.0);
+  model.foundations[0].stiffness = std::numeric_limits<double>::infinity();
+  const Result result = solve(model, analysis_of(AnalysisType::critical, StateOutput::none));
+  EXPECT_THAT(result.diagnostics.skipped, Contains(HasSubstr("foundation soil: stiffness beyond")));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ const kNothing = 1e-12;  // smaller displacements are rounding
 const kSaidElsewhere: ReadonlySet<string> = new Set(["nearly_unstable", "unstable"]);  // above the path, and as the headline
 const kKinds: Record<string, string> = {
   bifurcation: "bifurcation", limit_max: "limit point", limit_min: "limit point (least load)",
-  broken_bifurcation: "broken bifurcation", flutter: "flutter",
+  broken_bifurcation: "broken bifurcation", flutter: "flutter", capacity: "capacity of supports",
 };
 
 export function kindOf(type: string): string {

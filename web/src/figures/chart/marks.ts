@@ -9,7 +9,7 @@ export type MarkKind = CriticalType | "softest" | "opened" | "closed";
 /** What a legend calls a mark. */
 export const kMarkNames: Record<MarkKind, string> = {
   limit_max: "limit point", limit_min: "limit point, minimum", bifurcation: "bifurcation",
-  broken_bifurcation: "broken bifurcation", flutter: "flutter", softest: "softest point", closed: "contact made", opened: "contact lost",
+  broken_bifurcation: "broken bifurcation", flutter: "flutter", capacity: "capacity of supports", softest: "softest point", closed: "contact made", opened: "contact lost",
 };
 
 function polygon(className: string, at: Pixel, corners: readonly (readonly [number, number])[]): Shape {
@@ -21,8 +21,8 @@ function circle(className: string, at: Pixel, radius: number): Shape {
 }
 
 /**
- * Triangle up or down: limit point; diamond: bifurcation, hollow when broken; hourglass: flutter; hollow square: softest point;
- * dot: contact made, ring: lost.
+ * Triangle up or down: limit point; diamond: bifurcation, hollow when broken; hourglass: flutter; bar: capacity of supports;
+ * hollow square: softest point; dot: contact made, ring: lost.
  */
 export function mark(kind: MarkKind, at: Pixel): Shape {
   switch (kind) {
@@ -31,6 +31,7 @@ export function mark(kind: MarkKind, at: Pixel): Shape {
     case "bifurcation": return polygon("mark bifurcation", at, [[0, -7], [6, 0], [0, 7], [-6, 0]]);
     case "broken_bifurcation": return polygon("mark broken", at, [[0, -7], [6, 0], [0, 7], [-6, 0]]);
     case "flutter": return polygon("mark flutter", at, [[-6, -6.5], [6, -6.5], [-6, 6.5], [6, 6.5]]);
+    case "capacity": return polygon("mark limit", at, [[-6, -5], [6, -5], [6, -1], [-6, -1]]);
     case "softest": return polygon("mark softest", at, [[-5, -5], [5, -5], [5, 5], [-5, 5]]);
     case "closed": return circle("mark event", at, 3);
     case "opened": return circle("mark event open", at, 3);

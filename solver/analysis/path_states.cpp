@@ -1,0 +1,52 @@
+#include "solver/analysis/path_states.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "solver/numeric/number_text.h"
+#include "solver/report/state.h"
+
+namespace snapthrough {
+namespace {
+
+/// Replaces a state by that of a finer mesh.
+void replace(const Model& model, const Analysis& analysis, const RefinedStates& refined, State& state) {
+  const StaticState& at = refined.states.front();
+  State finer = make_state(*refined.structure, model, at.y, at.lambda, analysis.output.points_per_member);
+  finer.branch = state.branch;
+  finer.load_factor = state.load_factor;
+  finer.refinements = refined.refinements;
+  state = std::move(finer);
+}
+
+}  // namespace
+
+void refine_path_states(const Model& model, const Analysis& analysis, const Structure& structure,
+                        const std::vector<StaticState>& states, const std::stop_token& stop, Result& result) {
+  const FindStates no_other = [](const Structure&, const std::vector<StaticState>&) {
+    return std::vector<StaticState>();
+  };
+  std::string doubts;
+  std::size_t doubtful = 0;
+  for (const StaticState& asked : states) {
+    if (stop.stop_requested()) return;
+    const RefinedStates refined = refine_states(model, analysis.discretization, structure, {asked}, no_other);
+    result.diagnostics.factorizations += refined.factorizations;
+    State& state = result.states[asked.row];
+    const bool is_within = refined.error && *refined.error <= analysis.discretization.accuracy;
+    const bool is_equilibrium = imbalance(*refined.structure, model, refined.states.front().y,
+                                          asked.lambda) <= StateLimits::imbalance;
+    if (refined.refinements > 0 && is_within && is_equilibrium) replace(model, analysis, refined, state);
+    if (is_within && is_equilibrium) state.error_estimate = refined.error;
+    if (is_within && is_equilibrium) continue;
+    ++doubtful;
+    doubts += (doubts.empty() ? "" : ", ") + number(state.load_factor);
+  }
+  if (doubtful == 0) return;
+  result.warnings.push_back(
+      {"state_accuracy", std::to_string(doubtful) + " of " + std::to_string(states.size()) +
+                             " states at load factors are not confirmed by finer meshes: " + doubts});
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,58 @@
+#include "solver/trace/asked_states.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/events/root_finder.h"
+
+namespace snapthrough {
+namespace {
+
+bool is_at(const PathPoint& point, double load) {
+  return std::abs(point.lambda - load) <= kSameLoadFactor * std::abs(load);
+}
+
+}  // namespace
+
+/// Whether the path passes an asked load between the ends of a step, without beginning or ending there.
+bool AskedStateSearch::passes(std::size_t index, const PathPoint& from, const PathPoint& to) const {
+  const double load = asked_.loads[index].load;
+  if (is_at(from, load) || is_at(to, load)) return false;
+  return (from.lambda > load) != (to.lambda > load);
+}
+
+bool AskedStateSearch::look_on(const PathPoint& from, const PathPoint& to) {
+  found_.clear();
+  for (std::size_t i = 0; i < asked_.loads.size(); ++i) {
+    if ((asked_.once && told_[i] != 0) || !passes(i, from, to)) continue;
+    std::optional<PathPoint> state = point_at_load(solver_, from, to, asked_.loads[i].load);
+    if (!state) return false;
+    found_.emplace_back(i, *std::move(state));
+  }
+  return true;
+}
+
+std::optional<PathPoint> AskedStateSearch::state_on(std::size_t index, const PathPoint& from,
+                                                    const PathPoint& to) {
+  const double load = asked_.loads[index].load;
+  if (is_at(to, load)) return to;
+  if (at_start_ && is_at(from, load)) return from;
+  if (!passes(index, from, to)) return std::nullopt;
+  const auto found =
+      std::find_if(found_.begin(), found_.end(), [index](const auto& one) { return one.first == index; });
+  return found != found_.end() ? found->second : point_at_load(solver_, from, to, load);
+}
+
+void AskedStateSearch::tell(const PathPoint& from, const PathPoint& to, const Receiver& receive) {
+  for (std::size_t i = 0; i < asked_.loads.size(); ++i) {
+    if (asked_.once && told_[i] != 0) continue;
+    const auto state = state_on(i, from, to);
+    if (!state) continue;
+    told_[i] = 1;
+    receive(asked_.loads[i].row, *state);
+  }
+  found_.clear();
+  at_start_ = false;
+}
+
+}  // namespace snapthrough
