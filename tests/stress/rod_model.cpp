@@ -496,7 +496,13 @@ LawAlong acting_law(const RodModel& rod, const RodElement& element, const Founda
   constexpr double kRigidDecays = 3.0;  // that an element resolves (docs/theory.md, Stiff foundations)
   const double decays = std::isinf(base.stiffness) ? kRigidDecays : rod.mesh.decay_lengths;
   const double modulus = rod.force / (rod.length * rod.length);
-  const double most = 4.0 * modulus / (element.softest * std::pow(element.h / decays, 4));
+  double length = element.h;
+  // the stiffness of a rigid base follows from the longest element of its member
+  if (std::isinf(base.stiffness))
+    for (int e = rod.mesh.first[element.member]; e < rod.mesh.first[element.member + 1]; ++e)
+      length = std::max(length, element.h * (rod.mesh.elements[e].to - rod.mesh.elements[e].from) /
+                                    (element.to - element.from));
+  const double most = 4.0 * modulus / (element.softest * std::pow(length / decays, 4));
   return LawAlong(std::min(base.stiffness, most));
 }
 

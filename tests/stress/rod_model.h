@@ -175,7 +175,7 @@ struct RodModel {
                                        const Eigen::Vector3d& row);
 
 /// @brief The law of a base on an element, in the model's units: a one-sided one with a stiffness decays over
-/// no shorter length than its mesh resolves.
+/// no shorter length than its mesh resolves, a rigid one than the longest element of its member does.
 [[nodiscard]] LawAlong acting_law(const RodModel& rod, const RodElement& element, const Foundation& base);
 
 /// Fraction of the member's length at xi of its element.
