@@ -14,8 +14,9 @@ constexpr std::size_t kSmall = 256 * 1024;
 /// (linear static analysis, order 5). The test MemoryLimit.TheLeastIsBelowEveryPeak compares peaks of small
 /// meshes.
 constexpr std::int64_t kLeastBytesByUnknown = 440;
-/// Likewise, what a search for buckling loads adds: two blocks of four vectors with their images and
-/// products, of two numbers or more for each unknown of a node.
+/// Bytes for each unknown that a search for buckling loads adds, a lower bound: two blocks of four vectors
+/// with their images and products, of two numbers or more for each unknown of a node. Each further unknown of
+/// a large mesh takes 1 120 bytes and more (order 8).
 constexpr std::int64_t kLeastBytesOfSearch = 8 * 3 * 2 * sizeof(double);
 
 std::recursive_mutex& turn() {

@@ -36,8 +36,8 @@ struct StateValues {
 /// the kind in the structure.
 ///
 /// The error of a magnitude is twice the difference of the largest values, or the largest difference at
-/// places where it is near its largest: nodes are more exact than what lies between them, and where a largest
-/// value is looked for is the reader's choice. N and Q, which jump where a one-sided support presses a place,
+/// places where it is near its largest: nodes are more exact than what lies between them, and a reader looks
+/// for the largest value at places of his own. N and Q, which jump where a one-sided support presses a place,
 /// and rotations count by their largest values alone. Differences within rounding of the largest force or
 /// displacement of all kinds count as none.
 [[nodiscard]] double relative_error(const StateValues& coarse, const StateValues& fine);

@@ -66,8 +66,10 @@ HeldLoads held_loads(const Model& model, const Analysis& analysis, const Unilate
 
 namespace {
 
-/// Takes the rows beyond the capacity of supports from those that one-sided supports do not hold: a capacity
-/// that resists is exhausted at a lower load. Small displacements refuse them; a path ends before them.
+/// Decides on the load factors beyond the capacity of supports. Supports with a capacity are exhausted at a
+/// lower load than that at which one-sided supports lose their hold, so that the capacity is what is
+/// reported. With small displacements these load factors are refused; with large ones the path ends at the
+/// capacity, before them.
 void refuse_rows_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
                                  HeldLoads& held, Result& result) {
   const bool is_linear = analysis.geometry == Geometry::linear;

@@ -10,6 +10,11 @@
 namespace snapthrough {
 namespace {
 
+bool is_balanced(const Model& model, const RefinedStates& refined) {
+  const StaticState& at = refined.states.front();
+  return imbalance(*refined.structure, model, at.y, at.lambda) <= StateLimits::imbalance;
+}
+
 /// Replaces a state by that of a finer mesh.
 void replace(const Model& model, const Analysis& analysis, const RefinedStates& refined, State& state) {
   const StaticState& at = refined.states.front();
@@ -34,12 +39,15 @@ void refine_path_states(const Model& model, const Analysis& analysis, const Stru
     const RefinedStates refined = refine_states(model, analysis.discretization, structure, {asked}, no_other);
     result.diagnostics.factorizations += refined.factorizations;
     State& state = result.states[asked.row];
-    const bool is_within = refined.error && *refined.error <= analysis.discretization.accuracy;
-    const bool is_equilibrium = imbalance(*refined.structure, model, refined.states.front().y,
-                                          asked.lambda) <= StateLimits::imbalance;
-    if (refined.refinements > 0 && is_within && is_equilibrium) replace(model, analysis, refined, state);
-    if (is_within && is_equilibrium) state.error_estimate = refined.error;
-    if (is_within && is_equilibrium) continue;
+    // a state that stays was judged when it was recorded
+    const bool is_finer = refined.refinements > 0;
+    const bool is_confirmed = refined.error && *refined.error <= analysis.discretization.accuracy &&
+                              (!is_finer || is_balanced(model, refined));
+    if (is_confirmed && is_finer) replace(model, analysis, refined, state);
+    if (is_confirmed) {
+      state.error_estimate = refined.error;
+      continue;
+    }
     ++doubtful;
     doubts += (doubts.empty() ? "" : ", ") + number(state.load_factor);
   }

@@ -363,7 +363,6 @@ TraceRules primary_rules(const Model& model, const Analysis& analysis, const Str
                          Recorder& recorder) {
   TraceRules rules = rules_of(model, analysis, structure);
   rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.output.at_load_factors);
-  if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   recorder.ask(rules);
   return rules;

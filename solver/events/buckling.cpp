@@ -30,16 +30,18 @@ struct BucklingLimits {
   static constexpr double held_share = 1e-3;  ///< digits of LinearBuckling::held_share
   static constexpr double tolerance = 1e-14;  ///< relative error of loads that the iteration leaves
   static constexpr double same = 1e-9;        ///< difference of a load from the Rayleigh quotient of its mode
-  /// Distances of counts that confirm a load by themselves: digits that rounding leaves to a load at least.
+  /// Distances from a load of the inertia counts that confirm it by themselves: rounding leaves a load so
+  /// many digits at least.
   static constexpr std::array counted{1e-6, 1e-5};
-  static constexpr double farther = 1e-4;      ///< that of a count that confirms it with its quotient
-  static constexpr double near = 1e-4;         ///< difference of loads that are polished together
-  static constexpr double below_group = 1e-5;  ///< distance of the shift from the lowest of them
+  /// Distance of the counts that confirm a load together with the Rayleigh quotient of its mode.
+  static constexpr double farther = 1e-4;
+  static constexpr double near = 1e-4;         ///< difference of neighbouring loads that form a group
+  static constexpr double below_group = 1e-5;  ///< distance of a group's shift from its lowest load
   static constexpr double converged = 1e-13;   ///< change of a load at which inverse iteration ends: rounding
   static constexpr int most_iterations = 60;   ///< inverse iterations at most
   /// Doublings of the first scale; beyond 1e13 times it the elastic stiffness is lost to rounding.
   static constexpr int doublings = 43;
-  /// Halvings of it: where the loads that grow press no member, rounding alone gives the scale.
+  /// Halvings of the first scale: where the loads that grow press no member, rounding alone gives it.
   static constexpr int halvings = 100;
 };
 
@@ -163,10 +165,10 @@ bool are_confirmed(BucklingPencil& pencil, const VectorXd& loads, const MatrixXd
 /// Appends the lowest `count` loads above a shift, which share their powers of ten with the lowest of them:
 /// (J(load) - J(shift))^-1 loses what lies further away.
 /// @param shift below the loads, with the inertia there
-/// @param bounds loads beyond are rounding
+/// @param largest loads above it are rounding
 /// @return whether the loads are confirmed
-bool find_band(BucklingPencil& pencil, Shift shift, int count, const LoadRange& bounds,
-               KrylovColumns& columns, LinearBuckling& out) {
+bool find_band(BucklingPencil& pencil, Shift shift, int count, double largest, KrylovColumns& columns,
+               LinearBuckling& out) {
   const double from = shift.at;
   pencil.factorise(from);
   EigenSearch search;
@@ -182,7 +184,7 @@ bool find_band(BucklingPencil& pencil, Shift shift, int count, const LoadRange& 
                 are_counted(pencil, loads, shift.below, BucklingLimits::same);
   are_loads = are_loads || are_confirmed(pencil, loads, modes, shift.below);
   for (Index i = 0; i < loads.size(); ++i) {
-    if (!(loads[i] > from && loads[i] < bounds.largest)) continue;
+    if (!(loads[i] > from && loads[i] < largest)) continue;
     out.loads.push_back(loads[i]);
     out.modes.push_back(modes.col(i) / modes.col(i).lpNorm<Eigen::Infinity>());
   }
@@ -212,11 +214,12 @@ void find_loads(BucklingPencil& pencil, int count, LinearBuckling& out) {
   std::optional<double> from = range.lowest;
   do {
     const int before = all();
-    out.complete =
-        find_band(pencil, {*from, out.negative_at_start + before}, count - before, range, columns, out);
+    out.complete = find_band(pencil, {*from, out.negative_at_start + before}, count - before, range.largest,
+                             columns, out);
     if (is_last()) return;
-    out.complete = out.complete && all() > before;
-    if (!out.complete || out.negative_at_start > 0) return;
+    // where the start is unstable, counts do not tell the loads that are left
+    out.complete = out.complete && all() > before && out.negative_at_start == 0;
+    if (!out.complete) return;
     from = last_with(pencil, out.negative_at_start + all(), kOffMultiples * out.loads.back(), range.largest);
   } while (from);
   out.complete = false;

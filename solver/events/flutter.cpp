@@ -32,8 +32,6 @@ struct FlutterLimits {
   static constexpr Eigen::Index forces = 4;  ///< combinations of the forces of a part, see follower_parts()
   /// Where supports touch without pressure as a step begins, its first share, which is left out.
   static constexpr double beginning = 1e-3;
-  /// Fall of a function on a bracket of flutter over its fall on the step, beyond which the function jumps.
-  static constexpr double jump = 0.5;
   static constexpr double shortest = 1e-6;  ///< length of a step that is not halved, over its load
   static constexpr int places = 4;          ///< pieces of a step at whose ends divergence_on_step() looks
 };

@@ -32,7 +32,7 @@ struct CapacityRule {
   /// Share of a limit at which a path ends. The displacements of a hyperbolic law are a thousand times those
   /// of its initial stiffness there, those of other laws less. Source: docs/decisions/0036.
   static constexpr double reached = 0.999;
-  /// LocateOptions::before_kink: share of the displacement to which the point is found where a law bends.
+  /// Value of LocateOptions::before_kink on a path whose supports have a capacity.
   static constexpr double kink = 1e-3;
   std::array<double, 2> limits{};  ///< least and largest load factor that the supports hold; infinite: any
   /// Range of the load factor that ends the path: the rest up to a limit takes displacements that grow
@@ -43,7 +43,8 @@ struct CapacityRule {
 
   /// Whether a path that cannot go on at a load factor has met the capacity of its supports.
   [[nodiscard]] bool is_near(double lambda) const { return is_within(near, lambda); }
-  /// Whether a critical point at a load factor is the limit itself, whatever motion is softest there.
+  /// Whether a load factor is so near a limit that a critical point there is the capacity, also where its
+  /// softest motion bends members.
   [[nodiscard]] bool is_at(double lambda) const { return is_within(reached, lambda); }
 
  private:
