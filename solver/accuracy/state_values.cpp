@@ -83,15 +83,24 @@ double error_of(const std::vector<double>& coarse, const std::vector<double>& fi
   return out;
 }
 
+bool is_force(std::size_t kind) { return kind >= static_cast<std::size_t>(ValueKind::axial_force); }
+
+/// Whether differences beside the largest magnitude of a kind count.
+bool counts_beside(std::size_t kind) {
+  return kind == static_cast<std::size_t>(ValueKind::displacement) ||
+         kind == static_cast<std::size_t>(ValueKind::moment);
+}
+
 /// Largest sizes of section forces and gradients of a state: N, Q, M, then u'_x, u'_y, b'.
 std::array<double, 6> largest_unknowns(const Structure& structure, const VectorXd& y) {
   std::array<double, 6> out{};
   const int p = structure.mesh.order;
-  for (const ElementDofs& dofs : structure.dofs)
+  for (const ElementDofs& dofs : structure.dofs) {
     for (int c = 0; c < 3; ++c) {
       out[c] = std::max(out[c], y.segment(dofs.s + c * p, p).lpNorm<Eigen::Infinity>());
       out[3 + c] = std::max(out[3 + c], y.segment(dofs.v + c * p, p).lpNorm<Eigen::Infinity>());
     }
+  }
   const double force = std::max({out[0], out[1], out[2]});
   const double gradient = std::max({out[3], out[4], out[5]});
   for (std::size_t c = 0; c < 6; ++c)
@@ -110,7 +119,7 @@ double least_force_of(const Structure& structure, const Model& model, const Vect
     gradient = std::max(gradient, y.segment(dofs.v, 3 * structure.mesh.order).lpNorm<Eigen::Infinity>());
   const Scales& scales = structure.scales;
   const double loads = (lambda * structure.proportional_load + structure.constant_load).lpNorm<1>();
-  return Rounding::motion *
+  return Rounding::force *
          std::max(loads, gradient * softest / (scales.force * scales.length * scales.length));
 }
 
@@ -140,25 +149,27 @@ StateValues values_of(const Structure& structure, const Model& model, const Vect
   return out;
 }
 
-double relative_error(const StateValues& coarse, const StateValues& fine) {
-  constexpr std::size_t forces = static_cast<std::size_t>(ValueKind::axial_force);
+double relative_error(const StateValues& coarse, const StateValues& fine, double accuracy) {
   std::array<double, kValueKinds> largest{};
-  std::array<double, 2> of_all{};
+  double of_motions = 0.0;
+  double of_forces = 0.0;
   for (std::size_t k = 0; k < kValueKinds; ++k) {
     for (const std::vector<double>& one : fine.of[k]) largest[k] = std::max(largest[k], largest_of(one));
-    double& all = of_all[k < forces ? 0 : 1];
-    all = std::max(all, largest[k]);
+    double& of_all = is_force(k) ? of_forces : of_motions;
+    of_all = std::max(of_all, largest[k]);
   }
+  // scaled lengths are of the order of one
+  const double least_force = std::max(Rounding::force * of_forces, fine.least_force);
   double out = 0.0;
   for (std::size_t k = 0; k < kValueKinds; ++k) {
-    // scaled lengths are of the order of one
-    const double rounding = std::max(Rounding::force * of_all[k < forces ? 0 : 1],
-                                     k < forces ? Rounding::coordinate : fine.least_force);
+    if (!(largest[k] > (is_force(k) ? least_force : Rounding::coordinate))) continue;
+    const double rounding =
+        is_force(k) ? Rounding::cancelled_sum * of_forces : Rounding::displacement * of_motions;
     for (std::size_t i = 0; i < fine.of[k].size(); ++i) {
-      const bool beside = k == static_cast<std::size_t>(ValueKind::displacement) ||
-                          k == static_cast<std::size_t>(ValueKind::moment);
-      const double difference = error_of(coarse.of[k][i], fine.of[k][i], beside) - rounding;
-      if (difference > 0.0) out = std::max(out, difference / std::max(largest[k], rounding));
+      const double difference = error_of(coarse.of[k][i], fine.of[k][i], counts_beside(k));
+      const double beyond_rounding = (difference - rounding) / largest[k];
+      out = std::max(
+          out, beyond_rounding > accuracy ? beyond_rounding : std::min(difference / largest[k], accuracy));
     }
   }
   return out;
@@ -169,14 +180,16 @@ std::vector<double> local_differences(const Structure& coarse, const Structure& 
   const std::array<double, 6> largest = largest_unknowns(fine, y);
   const int p = fine.mesh.order;
   std::vector<double> out(coarse.dofs.size(), 0.0);
-  for (std::size_t e = 0; e < fine.dofs.size(); ++e)
-    for (int c = 0; c < 3; ++c)
+  for (std::size_t e = 0; e < fine.dofs.size(); ++e) {
+    for (int c = 0; c < 3; ++c) {
       for (const auto& [first, size] :
            {std::pair{fine.dofs[e].s, largest[c]}, std::pair{fine.dofs[e].v, largest[3 + c]}}) {
         const Eigen::Index at = first + c * p;
         const double difference = (back.col(0).segment(at, p) - y.segment(at, p)).lpNorm<Eigen::Infinity>();
         if (size > 0.0) out[e / 2] = std::max(out[e / 2], difference / size);
       }
+    }
+  }
   return out;
 }
 

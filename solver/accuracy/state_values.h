@@ -38,9 +38,10 @@ struct StateValues {
 /// The error of a magnitude is twice the difference of the largest values, or the largest difference at
 /// places where it is near its largest: nodes are more exact than what lies between them, and a reader looks
 /// for the largest value at places of his own. N and Q, which jump where a one-sided support presses a place,
-/// and rotations count by their largest values alone. Differences within rounding of the largest force or
-/// displacement of all kinds count as none.
-[[nodiscard]] double relative_error(const StateValues& coarse, const StateValues& fine);
+/// and rotations count by their largest values alone. A kind whose largest value is rounding of the forces or
+/// displacements of all kinds does not count.
+/// @param accuracy a difference that exceeds it within rounding counts as the accuracy: no mesh decreases it
+[[nodiscard]] double relative_error(const StateValues& coarse, const StateValues& fine, double accuracy);
 
 /// @brief How far the unknowns of a state on a mesh are from polynomials on each element of a coarser mesh:
 /// the largest difference of section forces and displacement gradients, over the largest of the kind, for

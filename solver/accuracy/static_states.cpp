@@ -229,7 +229,7 @@ bool Refinement::compare() {
     if (!fine_->approach(next) && !fine_->settle(next) && !find_on(*fine_, next)) return false;
     const double difference =
         relative_error(values_of(level_->structure(), model_, state.y, state.lambda, false),
-                       values_of(fine_->structure(), model_, next.y, next.lambda, true));
+                       values_of(fine_->structure(), model_, next.y, next.lambda, true), accuracy_);
     if (!(difference > largest)) continue;
     largest = difference;
     worst_ = std::move(next);

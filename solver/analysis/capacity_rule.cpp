@@ -27,11 +27,12 @@ struct CapacityLimits {
 bool moves_rigidly(const Mode& motion) {
   double displaced = 0.0;
   double turned = 0.0;
-  for (const MemberMode& member : motion.members)
+  for (const MemberMode& member : motion.members) {
     for (std::size_t i = 0; i < member.s.size(); ++i) {
       displaced = std::max(displaced, std::hypot(member.u[i], member.v[i]));
       turned = std::max(turned, std::abs(member.rotation[i]));
     }
+  }
   return std::ranges::all_of(motion.members, [&](const MemberMode& member) {
     if (member.rotation.empty()) return true;
     const auto [least, most] = std::ranges::minmax(member.rotation);

@@ -33,7 +33,7 @@ void check_imperfections(const Place& model, const Model& data, const Names& nam
 /// Checks a worst imperfection against the rest of the request.
 void check_worst_imperfection(const Place& root, const Model& data, const Analysis& analysis);
 /// Checks supports beside rigid obstacles. @pre every other check of the request found nothing
-void check_obstacles(const Place& root, const Model& data, const Analysis& analysis);
+void check_obstacles(const Place& root, const Model& model, const Analysis& analysis);
 void check_masses(const Place& model, const Model& data, const Names& names);
 void check_monitors(const Place& model, const Model& data, Names& names);
 

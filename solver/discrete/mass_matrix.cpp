@@ -126,7 +126,7 @@ bool is_heavy(const Section& section) { return section.mass && section.mass->lar
 /// Motions of heavy places that supports leave free.
 Index free_motions_of_places(const Structure& structure, const Model& model) {
   std::set<std::tuple<std::string, std::string, double, int>> motions;  // a place and a component
-  for (const PointMass& point : model.masses)
+  for (const PointMass& point : model.masses) {
     for (int c = 0; c < 3; ++c) {
       const bool moves = (c < 2 ? point.mass : point.inertia) > 0.0;
       const bool is_fixed =
@@ -134,6 +134,7 @@ Index free_motions_of_places(const Structure& structure, const Model& model) {
           structure.supports[static_cast<std::size_t>(index_of(model.nodes, point.at.node))].fixed[c];
       if (moves && !is_fixed) motions.emplace(point.at.node, point.at.member, point.at.fraction, c);
     }
+  }
   return static_cast<Index>(motions.size());
 }
 

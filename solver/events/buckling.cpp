@@ -186,7 +186,7 @@ bool find_band(BucklingPencil& pencil, Shift shift, int count, double largest, K
   for (Index i = 0; i < loads.size(); ++i) {
     if (!(loads[i] > from && loads[i] < largest)) continue;
     out.loads.push_back(loads[i]);
-    out.modes.push_back(modes.col(i) / modes.col(i).lpNorm<Eigen::Infinity>());
+    out.modes.emplace_back(modes.col(i) / modes.col(i).lpNorm<Eigen::Infinity>());
   }
   return are_loads;
 }

@@ -295,7 +295,7 @@ int missed(Pencil& pencil, const Shift& shift, const Eigenpairs& found) {
 /// range of those found.
 void move_nearer(Pencil& pencil, const Eigenpairs& found, Shift& shift) {
   double first = found.values.front().real();
-  double range = found.values.back().real() - first;
+  const double range = found.values.back().real() - first;
   for (int i = 0; i < SearchLimits::tries; ++i) {
     const double distance = std::max(range, SearchLimits::closest * (first - shift.at));
     if (distance >= 0.5 * (first - shift.at)) break;

@@ -70,12 +70,13 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
     bearing.wrench = rigid.work(at.row);
     for (double& component : bearing.wrench) component *= -at.force;
     bearing.rounding = at.rounding;
-    if (!spring.rod)
+    if (!spring.rod) {
       state.springs.push_back({spring.id,
                                in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
                                in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
                                at.closed,
                                {}});
+    }
     if (!spring.at.node.empty())
       for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
     else if (const SpringLaw& law = structure.spring_laws[i]; law.force_unknown >= 0)

@@ -61,7 +61,7 @@ BoundedEnd end_at(PointSolver& solver, const Crossing& crossing, const PathPoint
 BoundedEnd end_at_load(PointSolver& solver, const Crossing& crossing, const PathPoint& from,
                        const PathPoint& to, bool kink) {
   // a step that loses the path before the bound may have its other end on another path
-  const BoundedEnd end = end_at(solver, crossing, from, to, kink);
+  BoundedEnd end = end_at(solver, crossing, from, to, kink);
   if (!end.found || (crossing.value(from) > 0.0) == (crossing.value(to) > 0.0)) return end;
   std::optional<PathPoint> at = point_at_load(solver, from, to, crossing.bound);
   const bool found = at.has_value();
