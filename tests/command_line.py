@@ -1,6 +1,8 @@
 """Runs the command line program on requests, several at a time; shared by checkers that know the program by its answers only."""
+import argparse
 import concurrent.futures
 import json
+import os
 import pathlib
 import subprocess
 
@@ -46,6 +48,20 @@ def solve(binary, request, seconds=60.0):
     if run.returncode not in (0, 3) or not isinstance(document, dict):
         return Answer(run.returncode, None, run.stdout + run.stderr)
     return Answer(run.returncode, document)
+
+
+def seeded_parser(doc, count, seconds):
+    """A parser of the options that checkers of random structures share.
+
+    doc: docstring of the checker; count, seconds: structures and seconds a run, if the options do not say.
+    """
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binary")
+    parser.add_argument("--count", type=int, default=count)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--seconds", type=float, default=seconds)
+    return parser
 
 
 def for_each(items, work, jobs):

@@ -11,10 +11,8 @@ status 1 if there was one. Expected:
   alone     a row equals the row that is asked for alone: 1e-6 of the largest displacement and reaction
   answered  where every row is answered with beds of stiffness 1e3 EI / span^4, it is with rigid and stiff ones
 """
-import argparse
 import collections
 import json
-import os
 import pathlib
 import random
 import sys
@@ -109,13 +107,8 @@ def report(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("binary")
-    parser.add_argument("--count", type=int, default=60)
-    parser.add_argument("--seed", type=int, default=1)
+    parser = command_line.seeded_parser(__doc__, count=60, seconds=20.0)
     parser.add_argument("--elements", type=int, default=8)
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--seconds", type=float, default=20.0)
     parser.add_argument("--keep")
     parser.add_argument("--show", type=int)
     options = parser.parse_args()

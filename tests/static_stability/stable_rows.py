@@ -19,10 +19,8 @@ disagreement, then counts; ends with status 1 if there was one. Expected, with B
 A frame whose members bend under the load need not lose stability at B: its rows may stay stable while it yields more than its
 linear solution does. It counts as `bent` if its largest displacement is over 1.3 times the linear one.
 """
-import argparse
 import collections
 import json
-import os
 import pathlib
 import random
 import re
@@ -218,12 +216,7 @@ def report(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("binary")
-    parser.add_argument("--count", type=int, default=20)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--seconds", type=float, default=60.0)
+    parser = command_line.seeded_parser(__doc__, count=20, seconds=60.0)
     parser.add_argument("--keep")
     parser.add_argument("--show", type=int)
     options = parser.parse_args()
