@@ -86,11 +86,17 @@ def monitor_values(view, request, monitors, row):
 
 
 def rows(view, request, document):
-    """[(what the row is, values)] of states and tables."""
+    """[(what the row is, values)] of states and tables. The row of a state has its displacements, too: a monitor is as exact as
+    the largest displacement of the structure."""
     found = []
     table = document.get("static")
+    states = {state["load_factor"]: state for state in document.get("states", []) if state["branch"] == 0}
     for row, factor in enumerate(table["load_factor"] if table else []):
-        found.append((f"row {row + 1} at load factor {factor:g}", monitor_values(view, request, table["monitors"], row)))
+        values = monitor_values(view, request, table["monitors"], row)
+        if values and factor in states:
+            moved = state_values(view, request, states[factor]).items()
+            values.update({key: value for key, value in moved if value[0] in ("displacement", "rotation")})
+        found.append((f"row {row + 1} at load factor {factor:g}", values))
     for number, state in enumerate(document.get("states", [])):
         if state["branch"] == 0:
             found.append((f"state {number + 1} at load factor {state['load_factor']:.6g}", state_values(view, request, state)))
