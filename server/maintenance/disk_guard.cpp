@@ -26,9 +26,9 @@ std::uint64_t DiskGuard::free_bytes() const {
   return static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
 }
 
-bool DiskGuard::check(bool writable) {
+bool DiskGuard::check(bool writable, std::uint64_t reusable) {
   const std::uint64_t free = free_bytes();
-  if (!writable || free < least_free_) {
+  if (!writable || free + reusable < least_free_) {
     if (!writable) {
       give_up_ballast();
     }
@@ -37,7 +37,7 @@ bool DiskGuard::check(bool writable) {
   if (has_ballast_ || ballast_bytes_ == 0) {
     return true;
   }
-  return free >= 2 * ballast_bytes_ + least_free_ && take_ballast();
+  return free >= 2 * ballast_bytes_ && free + reusable >= 2 * ballast_bytes_ + least_free_ && take_ballast();
 }
 
 bool DiskGuard::take_ballast() {

@@ -19,8 +19,9 @@ class DiskGuard {
   DiskGuard(std::string store_path, std::uint64_t ballast_bytes, std::uint64_t least_free);
 
   /// Deletes or restores the ballast file as needed. @param writable whether the latest write succeeded
+  /// @param reusable unused bytes inside the store's file
   /// @return whether there is room for new jobs
-  bool check(bool writable);
+  bool check(bool writable, std::uint64_t reusable);
 
   /// Returns the number of bytes that the service can use.
   [[nodiscard]] std::uint64_t free_bytes() const;

@@ -1,6 +1,7 @@
 #include "server/maintenance/upkeep.h"
 
 #include <chrono>
+#include <cstdint>
 
 #include "server/bell.h"
 
@@ -97,7 +98,11 @@ void Upkeep::look_at_disk(Time now) {
   const bool before = health.writable && health.has_space;
   const Status probe = context_.store.probe(now);
   health.writable = probe.ok();
-  health.has_space = guard_ ? guard_->check(probe.ok()) : probe.ok();
+  health.has_space = probe.ok();
+  if (guard_) {
+    const StatusOr<std::uint64_t> reusable = context_.store.give_back_space();
+    health.has_space = guard_->check(probe.ok(), reusable.ok() ? *reusable : 0);
+  }
   if (const bool after = health.writable && health.has_space; after != before) {
     context_.log.write(after ? LogLevel::info : LogLevel::error, "disk",
                        {{"writable", health.writable.load()},

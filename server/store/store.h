@@ -115,6 +115,10 @@ class Store {
   virtual Status forget_keys(std::chrono::seconds age, Time now) = 0;
   /// Ok when the store can be written.
   virtual Status probe(Time now) = 0;
+  /// @brief Gives unused space inside the store's file back to the file system, a part at each call.
+  /// @return bytes inside the file that are unused after it: new work takes them before the file grows. Zero
+  /// for a store that is not a file.
+  virtual StatusOr<std::uint64_t> give_back_space() { return std::uint64_t{0}; }
 
   /// Id of the newest successful job of that owner and content, without annotations if possible; or empty.
   virtual StatusOr<std::optional<std::string>> find_result(std::string_view content_key,

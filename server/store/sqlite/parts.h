@@ -4,14 +4,25 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "server/descriptor.h"
+#include "server/status.h"
 #include "server/store/admission.h"
 #include "server/store/sqlite/database.h"
 #include "server/store/store.h"
 
 namespace snapthrough::server::sqlite {
+
+/// @brief Takes an advisory lock on a file, which holds for every name of the file until the descriptor is
+/// closed or the process dies; creates the file if need be. `unavailable` when another process holds the
+/// lock.
+///
+/// SQLite's own locks (of another kind) end when their process closes any descriptor of the file: the result
+/// must outlive every connection.
+[[nodiscard]] StatusOr<Descriptor> lock_file(const std::string& path);
 
 /// The sweeps of a database. REQUIRES: the database outlives them.
 [[nodiscard]] std::unique_ptr<SweepStore> sweeps_in(Database& database);

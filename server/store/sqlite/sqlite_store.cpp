@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +15,25 @@
 
 namespace snapthrough::server::sqlite {
 namespace {
+
+/// Pages that are given back in one transaction, and consecutive transactions.
+constexpr int kPagesAtOnce = 256;
+constexpr int kShrinksAtOnce = 64;
+
+/// Pages of a database file.
+struct Pages {
+  std::int64_t all = 0;
+  std::int64_t free = 0;  ///< unused ones among them
+  std::int64_t size = 0;  ///< bytes of one
+};
+
+Pages pages_of(const Connection& connection) {
+  const auto number = [&connection](std::string_view pragma) {
+    Statement row = connection.prepare(pragma);
+    return row.step() ? row.integer(0) : 0;
+  };
+  return {number("PRAGMA page_count"), number("PRAGMA freelist_count"), number("PRAGMA page_size")};
+}
 
 /// Number of the row of a job that is running in the attempt of the claim.
 std::optional<std::int64_t> held_job(Connection& connection, const Claim& claim) {
@@ -376,6 +393,30 @@ class SqliteStore final : public Store {
     });
   }
 
+  /// Shrinks a file of which a quarter is unused. Small transactions, since each page that moves takes room
+  /// in the write-ahead log first.
+  StatusOr<std::uint64_t> give_back_space() override {
+    StatusOr<Pages> pages = database_.read<Pages>(pages_of);
+    for (int i = 0; i < kShrinksAtOnce && pages.ok() && pages->free > pages->all / 4; ++i) {
+      const std::int64_t before = pages->all;
+      const Status shrunk = database_.write_only(
+          [](Connection& connection) {
+            connection.execute("PRAGMA incremental_vacuum(" + std::to_string(kPagesAtOnce) + ")");
+            return Status();
+          },
+          Durability::unsynced);
+      if (!shrunk.ok()) {
+        break;
+      }
+      pages = database_.read<Pages>(pages_of);
+      if (pages.ok() && pages->all == before) {
+        break;  // made by a version whose stores do not shrink
+      }
+    }
+    return pages.ok() ? StatusOr<std::uint64_t>(static_cast<std::uint64_t>(pages->free * pages->size))
+                      : pages.status();
+  }
+
   StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                    std::string_view owner) override {
     return database_.read<std::optional<std::string>>(
@@ -477,14 +518,10 @@ class SqliteStore final : public Store {
   std::unique_ptr<DeliveryStore> deliveries_;
 };
 
-/// @brief Takes an advisory lock on a file, which holds for every name of the file until the descriptor is
-/// closed or the process dies; creates the file if need be. `unavailable` when another process holds the
-/// lock.
-///
-/// SQLite's own locks (of another kind) end when their process closes any descriptor of the file: the result
-/// must outlive every connection.
+}  // namespace
+
 StatusOr<Descriptor> lock_file(const std::string& path) {
-  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
   if (file.get() < 0) {
     return Status(StatusCode::io_error, path + ": " + std::generic_category().message(errno));
   }
@@ -493,8 +530,6 @@ StatusOr<Descriptor> lock_file(const std::string& path) {
   }
   return file;
 }
-
-}  // namespace
 
 StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
                                             std::span<const Migration> migrations) {
@@ -513,63 +548,6 @@ StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
     const Status status = to_status(error);
     return Status(status.code(), path + ": " + status.message());
   }
-}
-
-namespace {
-
-bool sync_path(const std::string& path, int flags) {
-  const Descriptor file(::open(path.c_str(), flags | O_CLOEXEC));
-  return file.get() >= 0 && ::fsync(file.get()) == 0;
-}
-
-/// Writes a finished file to the disk and gives it its final name; an older file of that name goes.
-Status publish_file(const std::string& unfinished, const std::string& name) {
-  const std::size_t slash = name.rfind('/');
-  const std::string folder = slash == std::string::npos ? "." : name.substr(0, slash + 1);
-  if (!sync_path(unfinished, O_RDWR) || ::rename(unfinished.c_str(), name.c_str()) != 0 ||
-      !sync_path(folder, O_RDONLY | O_DIRECTORY)) {
-    return {StatusCode::io_error, name + ": " + std::generic_category().message(errno)};
-  }
-  return {};
-}
-
-/// Removes an unfinished copy with the files that SQLite keeps beside it.
-void remove_unfinished(const std::string& path) {
-  for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
-    std::error_code ignored;
-    std::filesystem::remove(path + ending, ignored);
-  }
-}
-
-Status copy_and_check(const std::string& path, const std::string& copy_path, const std::string& target) {
-  try {
-    Connection(path, Access::read_only).copy_to(copy_path);
-    // A connection that may write removes -wal and -shm when it is closed.
-    const Connection copy(copy_path, Access::read_write);
-    Statement check = copy.prepare("PRAGMA integrity_check");
-    if (!check.step() || check.text(0) != "ok") {
-      return {StatusCode::io_error, target + ": the copy is damaged"};
-    }
-  } catch (const Error& error) {
-    const Status status = to_status(error);
-    return {status.code(), path + ": " + status.message()};
-  }
-  return {};
-}
-
-}  // namespace
-
-Status back_up(const std::string& path, const std::string& target) {
-  const std::string unfinished = target + ".part";
-  remove_unfinished(unfinished);
-  Status status = copy_and_check(path, unfinished, target);
-  if (status.ok()) {
-    status = publish_file(unfinished, target);
-  }
-  if (!status.ok()) {
-    remove_unfinished(unfinished);
-  }
-  return status;
 }
 
 }  // namespace snapthrough::server::sqlite
