@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "solver/mesh/mesh.h"
@@ -15,14 +17,36 @@ using nlohmann::ordered_json;
 /// Largest number of points that are read to find a valid request.
 constexpr std::uint64_t kTries = 10;
 
+/// Elements of a mesh, and their order.
+struct MeshSize {
+  int elements = 0;
+  int order = 1;
+};
+
+/// Counts a given mesh without making it; one that the program chooses is made, since its size follows from
+/// the model.
+MeshSize mesh_size(const Model& model, const Discretization& asked) {
+  if (!asked.fixed_mesh) {
+    const Mesh mesh = make_mesh(model, asked, make_axes(model));
+    return {static_cast<int>(mesh.elements.size()), mesh.order};
+  }
+  const std::unordered_map<std::string, int> of_members(asked.member_elements.begin(),
+                                                        asked.member_elements.end());
+  MeshSize size{0, asked.order};
+  for (const Member& member : model.members) {
+    const auto given = of_members.find(member.id);
+    size.elements += given == of_members.end() ? asked.elements : given->second;
+  }
+  return size;
+}
+
 /// Returns the number of free displacement unknowns of the request's mesh, before any refinement.
 int unknowns_of(const Request& request) {
   const Model model = rods_as_springs(request.model);
-  const Mesh mesh = make_mesh(model, request.analysis.discretization, make_axes(model));
+  const MeshSize mesh = mesh_size(model, request.analysis.discretization);
   // A member of n elements of order p has n p - 1 inner nodes with three displacements each.
   int unknowns = 3 * static_cast<int>(model.nodes.size());
-  unknowns +=
-      3 * (static_cast<int>(mesh.elements.size()) * mesh.order - static_cast<int>(model.members.size()));
+  unknowns += 3 * (mesh.elements * mesh.order - static_cast<int>(model.members.size()));
   for (const Member& member : model.members) {
     unknowns += (member.release_start_rotation ? 1 : 0) + (member.release_end_rotation ? 1 : 0);
   }

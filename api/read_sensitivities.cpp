@@ -12,6 +12,7 @@
 #include "api/sweep_data.h"
 #include "solver/check/check.h"
 #include "solver/model/id_index.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api {
 
@@ -26,23 +27,6 @@ double extent_of(const Model& model) {
     extent = std::max(extent, std::hypot(node.x - model.nodes[0].x, node.y - model.nodes[0].y));
   }
   return extent > 0.0 && std::isfinite(extent) ? extent : 1.0;
-}
-
-/// Returns the shortest chord of the members at a node, at most the extent.
-double chord_at(const Model& model, std::size_t node) {
-  double least = extent_of(model);
-  for (const Member& member : model.members) {
-    const int start = index_of(model.nodes, member.start);
-    const int end = index_of(model.nodes, member.end);
-    const auto at = static_cast<int>(node);
-    if (start < 0 || end < 0 || (start != at && end != at)) {
-      continue;
-    }
-    const double chord =
-        std::hypot(model.nodes[end].x - model.nodes[start].x, model.nodes[end].y - model.nodes[start].y);
-    least = chord > 0.0 ? std::min(least, chord) : least;
-  }
-  return least;
 }
 
 double largest_load(const Model& model) {
@@ -70,46 +54,75 @@ double largest_load(const Model& model) {
   return largest > 0.0 ? largest : 1.0;
 }
 
-/// Returns the scale of a quantity that is zero, by its name. Only lengths and angles enter nonlinearly.
-double size_of_nothing(const std::vector<std::string>& tokens, const Model& model) {
-  static constexpr std::array<std::string_view, 6> kLengths{"x", "y", "rise", "amplitude", "gap", "points"};
-  constexpr double kRadian = 57.0;
-  const auto names = [&tokens](std::string_view name) {
-    return std::find(tokens.begin(), tokens.end(), name) != tokens.end();
-  };
-  const double extent = extent_of(model);
-  if (std::any_of(kLengths.begin(), kLengths.end(), names) || (names("offsets") && tokens.back() == "1")) {
-    return extent;
+/// Scales of a model's numbers, each computed once for all of them.
+class Sizes {
+ public:
+  explicit Sizes(const Model& model)
+      : extent_(extent_of(model)), load_(largest_load(model)), chords_(model.nodes.size(), extent_) {
+    for (const Section& section : model.sections) {
+      bending_ = std::max(bending_, section.EI.largest());
+    }
+    const IdIndex nodes(model.nodes);
+    for (const Member& member : model.members) {
+      const int start = nodes.of(member.start);
+      const int end = nodes.of(member.end);
+      if (start >= 0 && end >= 0) {
+        take_chord(model.nodes, static_cast<std::size_t>(start), static_cast<std::size_t>(end));
+      }
+    }
   }
-  if (names("angle_degrees") || names("sweep_degrees")) {
-    return kRadian;
-  }
-  double bending = 0.0;
-  for (const Section& section : model.sections) {
-    bending = std::max(bending, section.EI.largest());
-  }
-  if (names("stiffness") || names("shear_stiffness")) {
-    return bending / (extent * extent * extent);
-  }
-  if (names("release")) {
-    return bending / extent;
-  }
-  if (names("curvature")) {
-    return 1.0 / extent;
-  }
-  return names("force") || names("moment") || names("value") ? largest_load(model) : 1.0;
-}
 
-/// Returns the size of a large change of a quantity.
-double size_of(const std::vector<std::string>& tokens, double value, const Model& model) {
-  if (tokens[1] == "nodes") {
-    return chord_at(model, *array_index(tokens[2]));
+  /// Size of a large change of a quantity.
+  [[nodiscard]] double of(const std::vector<std::string>& tokens, double value) const {
+    if (tokens[1] == "nodes") {
+      const std::size_t node = *array_index(tokens[2]);
+      return node < chords_.size() ? chords_[node] : extent_;
+    }
+    if (std::find(tokens.begin(), tokens.end(), "points") != tokens.end()) {
+      return 0.1 * extent_;
+    }
+    return value != 0.0 ? std::abs(value) : of_nothing(tokens);
   }
-  if (std::find(tokens.begin(), tokens.end(), "points") != tokens.end()) {
-    return 0.1 * extent_of(model);
+
+ private:
+  void take_chord(const std::vector<Node>& nodes, std::size_t start, std::size_t end) {
+    const double chord = std::hypot(nodes[end].x - nodes[start].x, nodes[end].y - nodes[start].y);
+    if (chord > 0.0) {
+      chords_[start] = std::min(chords_[start], chord);
+      chords_[end] = std::min(chords_[end], chord);
+    }
   }
-  return value != 0.0 ? std::abs(value) : size_of_nothing(tokens, model);
-}
+
+  /// Scale of a quantity that is zero, by its name. Only lengths and angles enter nonlinearly.
+  [[nodiscard]] double of_nothing(const std::vector<std::string>& tokens) const {
+    static constexpr std::array<std::string_view, 6> kLengths{"x", "y", "rise", "amplitude", "gap", "points"};
+    constexpr double kRadian = 57.0;
+    const auto names = [&tokens](std::string_view name) {
+      return std::find(tokens.begin(), tokens.end(), name) != tokens.end();
+    };
+    if (std::any_of(kLengths.begin(), kLengths.end(), names) || (names("offsets") && tokens.back() == "1")) {
+      return extent_;
+    }
+    if (names("angle_degrees") || names("sweep_degrees")) {
+      return kRadian;
+    }
+    if (names("stiffness") || names("shear_stiffness")) {
+      return bending_ / (extent_ * extent_ * extent_);
+    }
+    if (names("release")) {
+      return bending_ / extent_;
+    }
+    if (names("curvature")) {
+      return 1.0 / extent_;
+    }
+    return names("force") || names("moment") || names("value") ? load_ : 1.0;
+  }
+
+  double extent_;
+  double load_;                 ///< largest load
+  double bending_ = 0.0;        ///< largest EI
+  std::vector<double> chords_;  ///< shortest chord of the members at each node, at most the extent
+};
 
 /// Returns why critical loads have no derivative with respect to a value; "" when they may have one.
 std::string refusal(const std::vector<std::string>& tokens, const Json& value) {
@@ -133,7 +146,7 @@ std::optional<Model> model_with(const Json& document, const Json::json_pointer& 
                                                                        : std::nullopt;
 }
 
-void complete(const std::shared_ptr<const Json>& document, const Model& model, const Value& at,
+void complete(const std::shared_ptr<const Json>& document, const Sizes& sizes, const Value& at,
               Variation& variation) {
   const auto tokens = pointer_tokens(variation.pointer);
   if (!tokens || tokens->size() < 2 || tokens->front() != "model") {
@@ -153,7 +166,7 @@ void complete(const std::shared_ptr<const Json>& document, const Model& model, c
     return;
   }
   variation.value = value.get<double>();
-  variation.size = size_of(*tokens, variation.value, model);
+  variation.size = sizes.of(*tokens, variation.value);
   variation.model_at = [document, place](double other) { return model_with(*document, place, other); };
 }
 
@@ -166,9 +179,11 @@ void read_sensitivities(const std::shared_ptr<const Json>& document, const Model
   }
   const Json& list = document->at("analysis").at("sensitivities");
   const PointerPath path = PointerPath().with("analysis").with("sensitivities");
+  const Sizes sizes(model);
   for (std::size_t i = 0; i < analysis.sensitivities.size(); ++i) {
+    WorkLimit::poll();
     if (list[i].is_string()) {
-      complete(document, model, Value(list[i], path.with(i), report), analysis.sensitivities[i]);
+      complete(document, sizes, Value(list[i], path.with(i), report), analysis.sensitivities[i]);
     }
   }
 }

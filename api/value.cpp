@@ -9,6 +9,7 @@
 #include "api/request_schema.h"
 #include "solver/check/check_place.h"
 #include "solver/model/pointer.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api {
 
@@ -144,7 +145,10 @@ bool Value::is_string() const { return json_->is_string(); }
 bool Value::is_number() const { return json_->is_number(); }
 std::size_t Value::size() const { return json_->size(); }
 
-Value Value::item(std::size_t i) const { return {(*json_)[i], path_.with(i), *report_}; }
+Value Value::item(std::size_t i) const {
+  WorkLimit::poll();
+  return {(*json_)[i], path_.with(i), *report_};
+}
 
 std::optional<Value> Value::member(std::string_view key) const {
   const auto found = json_->find(key);

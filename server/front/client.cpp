@@ -1,5 +1,6 @@
 #include "server/front/client.h"
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -48,6 +49,11 @@ Client::~Client() { close(); }
 
 std::size_t Client::held_bytes() const {
   return reader.held() + work_bytes + output.size() + (rest ? rest->held_bytes() : 0);
+}
+
+bool Client::is_gone() const {
+  pollfd state{socket, POLLRDHUP, 0};
+  return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
 }
 
 Client::Read Client::receive() {

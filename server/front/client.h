@@ -53,7 +53,11 @@ struct Client {
   using Clock = std::chrono::steady_clock;
 
   Client(int descriptor, std::uint64_t number, std::string address, const HeadLimits& limits)
-      : socket(descriptor), id(number), remote(std::move(address)), reader(limits) {}
+      : socket(descriptor),
+        id(number),
+        remote(std::move(address)),
+        party("address " + remote),
+        reader(limits) {}
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -72,6 +76,8 @@ struct Client {
   /// Reads and discards bytes. Returns `more` if any were read, `ended` at the end of the connection.
   [[nodiscard]] Read discard() const;
   void close();
+  /// Returns whether the client has closed the connection. May be called while another thread has the mutex.
+  [[nodiscard]] bool is_gone() const;
   /// Returns the approximate memory of the client in bytes.
   [[nodiscard]] std::size_t held_bytes() const;
 
@@ -79,6 +85,7 @@ struct Client {
   int socket;
   const std::uint64_t id;
   const std::string remote;
+  std::string party;  ///< who asks, see Gateway::party_of(); the address until a head tells more
   Phase phase = Phase::idle;
   Clock::time_point deadline;
   RequestReader reader;

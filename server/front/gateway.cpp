@@ -7,6 +7,7 @@
 #include "server/authority.h"
 #include "server/resources/hops/protocol.h"
 #include "server/resources/page.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -45,7 +46,7 @@ bool is_state(std::string_view path) { return is_probe(path) || path == "/metric
 bool is_public(const Request& request) {
   const std::string_view path = request.path;
   const bool reads = request.method == "GET" || request.method == "HEAD";
-  return is_probe(path) || path == "/v1/openapi.json" || is_page_path(path) ||
+  return is_probe(path) || path == "/v1/openapi.json" || path == "/openapi.json" || is_page_path(path) ||
          (reads && hops::is_description_path(path));
 }
 
@@ -118,6 +119,17 @@ class GuardedSource final : public BodySource {
 Response Gateway::guarded(const Request& request, const std::function<Response()>& work) const {
   try {
     return work();
+  } catch (const WorkEnded&) {
+    return problem_response(
+        {422,
+         "too-costly-to-read",
+         "Too costly to read",
+         "Reading and checking this document takes longer than a request may wait for it, or "
+         "the service ends. Shorter lists, and curves with fewer half-waves, are read sooner.",
+         {},
+         "",
+         ""},
+        request);
   } catch (const std::exception& error) {
     Response response = problem_response(
         {500, "internal-error", "Internal error", "The request could not be served.", {}, "", ""}, request);
@@ -172,6 +184,23 @@ std::optional<Response> Gateway::without_resource(const Request& request, bool k
 }
 
 bool Gateway::answers_at_once(const Request& request) { return is_probe(request.path); }
+
+std::string Gateway::party_of(const Request& request) const {
+  const std::optional<std::string> owner = keys_.open() ? std::nullopt : keys_.owner(request);
+  return owner ? "owner " + *owner : "address " + request.remote;
+}
+
+std::optional<Response> Gateway::refused_by_head(Request request) {
+  const double start = environment_.monotonic_seconds();
+  request.id = request_id(request, environment_);
+  const std::optional<std::string> owner = keys_.owner(request);
+  request.owner = owner.value_or("");
+  std::optional<Response> refusal = without_resource(request, owner.has_value());
+  if (refusal) {
+    complete(request, *refusal, start);
+  }
+  return refusal;
+}
 
 Response Gateway::serve(Request request) {
   const double start = environment_.monotonic_seconds();

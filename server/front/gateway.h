@@ -48,6 +48,10 @@ class Gateway {
   /// Returns whether serve() answers a request from memory within microseconds: /livez and /readyz, which
   /// health checks use.
   [[nodiscard]] static bool answers_at_once(const Request& request);
+  /// Returns who asks: an owner, or an address without a known key. What clients share is bounded for each.
+  [[nodiscard]] std::string party_of(const Request& request) const;
+  /// Returns the refusal of a request by its head, before its body arrives; nullopt when its body is wanted.
+  [[nodiscard]] std::optional<Response> refused_by_head(Request request);
   /// Returns the response to a request that was refused while its bytes were read; `head` has what was read.
   [[nodiscard]] Response refuse(const Head& head, const std::string& remote);
 

@@ -19,8 +19,11 @@
 #include "server/bell.h"
 #include "server/front/client.h"
 #include "server/front/response_bytes.h"
+#include "server/front/shares.h"
 #include "server/front/sockets.h"
 #include "server/front/turns.h"
+#include "server/jobs/memory.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -37,8 +40,16 @@ constexpr std::chrono::milliseconds kSweep{100};
 constexpr std::chrono::milliseconds kLinger{500};
 /// Threads in addition to those that compute responses, so that immediate answers do not wait for them.
 constexpr int kAttending = 2;
+/// The thread of the turn for large bodies.
+constexpr int kForLarge = 1;
 /// Responses below this size in bytes are always sent.
 constexpr std::size_t kSmallResponse = 64 * 1024;
+/// One party has at most a part of what all share: half of the memory, a quarter of the turns and streams.
+constexpr std::size_t kPartOfMemory = 2;
+constexpr int kPartOfTurns = 4;
+constexpr int kPartOfStreams = 4;
+/// Work of which the client has gone, or the service is about to end, goes on for so long.
+constexpr std::chrono::milliseconds kAbandoned{1'000};
 constexpr std::string_view kTooMany =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Type: application/problem+json\r\n"
     "Content-Length: 153\r\nConnection: close\r\n\r\n"
@@ -49,7 +60,8 @@ constexpr std::string_view kTooMany =
 struct Wake {
   std::uint64_t client = 0;
   std::uint64_t deferral = 0;
-  bool has_turn = false;  ///< the client got a turn to work and must pass it on
+  Turns* turns = nullptr;  ///< not null: the client got one of these turns, and must pass it on
+  std::string party = {};  ///< whose turn it is
 };
 
 }  // namespace
@@ -59,7 +71,8 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   Server(ListenerOptions options, Gateway& gateway)
       : options_(std::move(options)),
         gateway_(gateway),
-        turns_(options_.threads),
+        turns_(options_.threads, std::max(1, options_.threads / kPartOfTurns)),
+        large_turns_(1, 1),
         epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
     watch(wakes_ready_.descriptor(), kWakes, EPOLLIN, EPOLL_CTL_ADD);
     watch(end_.descriptor(), kEnd, EPOLLIN, EPOLL_CTL_ADD);
@@ -80,10 +93,15 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   void attend(const ClientPointer& client, std::uint32_t events);
   void read_and_serve(const ClientPointer& client);
   bool note_incomplete(Client& client, const Received& received);
+  std::optional<Response> judge_head(Client& client, const Head& head);
   bool answer(const ClientPointer& client, Received received);
   bool in_turn(const ClientPointer& client, std::function<Response()> work, std::size_t bytes);
   bool work_on(const ClientPointer& client);
-  void pass_turn();
+  [[nodiscard]] bool is_over(const Client& client, Clock::time_point start) const;
+  [[nodiscard]] Turns& turns_for(const Client& client) {
+    return client.work_bytes > LargeDocument::kSmall ? large_turns_ : turns_;
+  }
+  void pass_turn(Turns& turns, const std::string& party);
   bool refuse(const ClientPointer& client, const Head& head, bool linger);
   bool deliver(const ClientPointer& client, Response response);
   bool defer(const ClientPointer& client, Deferred deferred);
@@ -99,7 +117,9 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   void take_wake();
 
   void drop(Client& client);
-  std::size_t account(Client& client);
+  void name_party(Client& client, std::string party);
+  bool account(Client& client);
+  bool add_held(const Client& client, std::size_t more, std::size_t less);
   void rearm(const Client& client, std::uint32_t events) const {
     watch(client.socket, client.id, events | EPOLLONESHOT, EPOLL_CTL_MOD);
   }
@@ -113,19 +133,22 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
 
   const ListenerOptions options_;
   Gateway& gateway_;
-  Turns turns_;  ///< turns to compute responses
+  Turns turns_;        ///< turns to compute responses
+  Turns large_turns_;  ///< turns for large bodies, which are worked on one at a time
   Descriptor epoll_;
   Descriptor listening_;
   PollBell wakes_ready_{true};
   PollBell end_;
   int port_ = 0;
   std::atomic<bool> stopping_ = false;
+  std::atomic<Clock::time_point> stopped_at_{Clock::time_point::max()};
 
   mutable std::mutex table_mutex_;
   std::unordered_map<std::uint64_t, ClientPointer> clients_;
   std::uint64_t next_id_ = kFirstClient;
   std::atomic<int> streams_ = 0;
   std::atomic<std::size_t> buffered_ = 0;
+  Shares shares_;
 
   std::mutex wakes_mutex_;
   std::deque<Wake> wakes_;
@@ -142,7 +165,7 @@ Status Listener::Server::start() {
   }
   listening_ = std::move(listening).value();
   port_ = port_of(listening_.get());
-  for (int i = 0; i < options_.threads + kAttending; ++i) {
+  for (int i = 0; i < options_.threads + kForLarge + kAttending; ++i) {
     threads_.emplace_back([this] { work(); });
   }
   keeper_ = std::thread([this] { keep(); });
@@ -150,6 +173,7 @@ Status Listener::Server::start() {
 }
 
 void Listener::Server::shut_down() {
+  stopped_at_ = Clock::now();
   stopping_ = true;
   if (keeper_.joinable()) {
     keeper_.join();
@@ -313,9 +337,16 @@ void Listener::Server::read_and_serve(const ClientPointer& client) {
       refuse(client, received.head, true);
       return;
     }
-    if (!note_incomplete(*client, received)) {
+    const bool has_room = note_incomplete(*client, received);
+    if (!has_room) {
       refuse(client, received.head, true);
       return;
+    }
+    if (received.kind == Received::Kind::body_incomplete && client->phase != Phase::body) {
+      if (std::optional<Response> refusal = judge_head(*client, received.head)) {
+        deliver(client, *std::move(refusal));
+        return;
+      }
     }
     const Client::Read read = drained ? Client::Read::nothing_now : client->receive();
     if (read == Client::Read::ended) {
@@ -330,22 +361,35 @@ void Listener::Server::read_and_serve(const ClientPointer& client) {
   rearm(*client, EPOLLIN | EPOLLOUT);  // fires at once, after others
 }
 
-/// Records an incomplete request. Returns false when there is no memory left for its body.
+/// Records an incomplete request. Returns false when there is no memory left for it.
 bool Listener::Server::note_incomplete(Client& client, const Received& received) {
-  account(client);
-  const Clock::time_point now = Clock::now();
-  if (received.kind == Received::Kind::body_incomplete && client.phase != Phase::body) {
-    client.phase = Phase::body;
-    client.deadline = now + options_.times.body;
-    if (received.head.expects_continue) {
-      client.output = "HTTP/1.1 100 Continue\r\n\r\n";
-      client.flush();
-    }
-  } else if (client.phase == Phase::idle && client.reader.held() > 0) {
+  if (received.kind == Received::Kind::head_incomplete && client.phase == Phase::idle &&
+      client.reader.held() > 0) {
     client.phase = Phase::head;
-    client.deadline = now + options_.times.head;
+    client.deadline = Clock::now() + options_.times.head;
   }
-  return buffered_ <= options_.limits.buffered_bytes || client.phase != Phase::body;
+  return account(client) || client.phase == Phase::idle;
+}
+
+/// Decides by a complete head whether its body may come: memory for bodies is for those who have access.
+std::optional<Response> Listener::Server::judge_head(Client& client, const Head& head) {
+  Request request = request_of(head);
+  request.remote = client.remote;
+  name_party(client, gateway_.party_of(request));
+  client.head_only = request.method == "HEAD";
+  if (std::optional<Response> refusal = gateway_.refused_by_head(std::move(request))) {
+    client.close_after = true;
+    client.linger_after = true;
+    client.reader.release();
+    return refusal;
+  }
+  client.phase = Phase::body;
+  client.deadline = Clock::now() + options_.times.body;
+  if (head.expects_continue) {
+    client.output = "HTTP/1.1 100 Continue\r\n\r\n";
+    client.flush();
+  }
+  return std::nullopt;
 }
 
 bool Listener::Server::answer(const ClientPointer& client, Received received) {
@@ -358,6 +402,7 @@ bool Listener::Server::answer(const ClientPointer& client, Received received) {
   if (Gateway::answers_at_once(request)) {
     return deliver(client, gateway_.serve(std::move(request)));
   }
+  name_party(*client, gateway_.party_of(request));
   const std::size_t size = request.body.size();
   const auto kept = std::make_shared<Request>(std::move(request));
   return in_turn(
@@ -371,7 +416,7 @@ bool Listener::Server::in_turn(const ClientPointer& client, std::function<Respon
   client->work = std::move(work);
   client->work_bytes = bytes;
   account(*client);
-  if (turns_.take(client->id)) {
+  if (turns_for(*client).take(client->id, client->party)) {
     return work_on(client);
   }
   client->phase = Phase::in_row;
@@ -382,21 +427,30 @@ bool Listener::Server::in_turn(const ClientPointer& client, std::function<Respon
 
 /// Computes the response in the client's turn. Returns the value of deliver().
 bool Listener::Server::work_on(const ClientPointer& client) {
+  const Clock::time_point start = Clock::now();
+  const WorkLimit limit([this, &client, start] { return is_over(*client, start); });
   Response response = std::exchange(client->work, nullptr)();
-  pass_turn();
+  pass_turn(turns_for(*client), client->party);
   client->work_bytes = 0;
   account(*client);
   return deliver(client, std::move(response));
 }
 
-/// Passes the turn to the next waiting client that is still connected.
-void Listener::Server::pass_turn() {
-  std::optional<std::uint64_t> next = turns_.pass();
-  while (next && !find(*next)) {
-    next = turns_.pass();
+/// Whether work for a client has to end: it takes too long, or nobody waits for it any more.
+bool Listener::Server::is_over(const Client& client, Clock::time_point start) const {
+  const Clock::time_point now = Clock::now();
+  return now > start + options_.times.reading || (stopping_ && now > stopped_at_.load() + kAbandoned) ||
+         (now > start + kAbandoned && client.is_gone());
+}
+
+/// Passes the turn of a party to the next waiting client that is still connected.
+void Listener::Server::pass_turn(Turns& turns, const std::string& party) {
+  std::optional<Turns::Next> next = turns.pass(party);
+  while (next && !find(next->who)) {
+    next = turns.pass(next->party);
   }
   if (next) {
-    wake({*next, 0, true});
+    wake({next->who, 0, &turns, std::move(next->party)});
   }
 }
 
@@ -409,6 +463,7 @@ bool Listener::Server::refuse(const ClientPointer& client, const Head& head, boo
   client->close_after = true;
   client->linger_after = linger;
   client->head_only = head.method == "HEAD";
+  client->reader.release();
   return deliver(client, gateway_.refuse(refused, client->remote));
 }
 
@@ -431,7 +486,7 @@ bool Listener::Server::begin_body(const ClientPointer& client, const Response& r
   client->output += to_bytes(response, client->head_only, !client->close_after, client->chunked);
   client->rest = client->head_only ? nullptr : response.rest;
   const bool large = client->rest || client->output.size() > kSmallResponse;
-  if (account(*client) > options_.limits.buffered_bytes && large) {
+  if (!account(*client) && large) {
     client->output.resize(waiting);
     client->rest.reset();
     account(*client);
@@ -456,8 +511,12 @@ bool Listener::Server::defer(const ClientPointer& client, Deferred deferred) {
 }
 
 bool Listener::Server::begin_stream(const ClientPointer& client, const Response& response) {
-  if (++streams_ > options_.streams) {
-    --streams_;
+  const bool may = shares_.add_stream(client->party, std::max(1, options_.streams / kPartOfStreams));
+  if (!may || ++streams_ > options_.streams) {
+    if (may) {
+      --streams_;
+      shares_.remove_stream(client->party);
+    }
     Head head;
     head.refusal = Refusal{503, "There are too many streams of events already."};
     return refuse(client, head, false);
@@ -520,9 +579,9 @@ bool Listener::Server::send_on(const ClientPointer& client) {
       return after_response(client);
     }
     // memory for a piece is reserved before it is made, so that threads do not all find the same free memory
-    const bool has_room = buffered_.fetch_add(kPieceBytes) <= options_.limits.buffered_bytes;
+    const bool has_room = add_held(*client, kPieceBytes, 0);
     const bool whole = !has_room || append_piece(client);
-    buffered_ -= kPieceBytes;
+    add_held(*client, 0, kPieceBytes);
     if (!has_room) {  // waits until other clients have read
       return wait_to_send(client, 0, Clock::now() + kSweep);
     }
@@ -602,12 +661,12 @@ void Listener::Server::take_wake() {
 void Listener::Server::woken(const Wake& wake) {
   const ClientPointer client = find(wake.client);
   if (!client) {
-    return wake.has_turn ? pass_turn() : void();
+    return wake.turns == nullptr ? void() : pass_turn(*wake.turns, wake.party);
   }
   const std::lock_guard guard(client->mutex);
-  if (wake.has_turn) {
+  if (wake.turns != nullptr) {
     if (client->phase != Phase::in_row) {  // the client left in the meantime
-      return pass_turn();
+      return pass_turn(*wake.turns, wake.party);
     }
     if (work_on(client)) {
       read_and_serve(client);
@@ -629,22 +688,42 @@ void Listener::Server::woken(const Wake& wake) {
   }
 }
 
-/// Updates the counted memory of a client. Returns the sum of all clients before this update.
-std::size_t Listener::Server::account(Client& client) {
+/// Gives what a client holds to another party.
+void Listener::Server::name_party(Client& client, std::string party) {
+  if (party != client.party) {
+    shares_.add_bytes(client.party, 0, client.counted);
+    shares_.add_bytes(party, client.counted, 0);
+    client.party = std::move(party);
+  }
+}
+
+/// Updates the counted memory of a client. Returns whether all clients, and its party, are within their
+/// bounds.
+bool Listener::Server::account(Client& client) {
   const std::size_t held = client.held_bytes();
-  return buffered_.fetch_add(held - std::exchange(client.counted, held));
+  return add_held(client, held, std::exchange(client.counted, held));
+}
+
+/// Adds bytes that a client holds, or takes them away; returns as account().
+bool Listener::Server::add_held(const Client& client, std::size_t more, std::size_t less) {
+  const std::size_t most = options_.limits.buffered_bytes;
+  const std::size_t of_party =
+      std::max(most / kPartOfMemory, options_.limits.head_bytes + options_.limits.body_bytes);
+  const bool all_within = buffered_.fetch_add(more - less) <= most;
+  return shares_.add_bytes(client.party, more, less) <= of_party && all_within;
 }
 
 void Listener::Server::drop(Client& client) {
   if (client.phase == Phase::streaming) {
     --streams_;
+    shares_.remove_stream(client.party);
     client.outbox->close();
   }
   client.source.reset();
   client.rest.reset();
   client.work = nullptr;
   client.work_bytes = 0;
-  buffered_ -= std::exchange(client.counted, 0);
+  add_held(client, 0, std::exchange(client.counted, 0));
   client.close();
   const std::lock_guard guard(table_mutex_);
   clients_.erase(client.id);

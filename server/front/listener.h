@@ -14,12 +14,13 @@ namespace snapthrough::server::http {
 
 /// Time limits for clients.
 struct ClientTimes {
-  std::chrono::milliseconds idle{75'000};  ///< to the first byte of a request
-  std::chrono::milliseconds head{10'000};  ///< from the first byte to the end of the head
-  std::chrono::milliseconds body{60'000};  ///< to receive the body
-  std::chrono::milliseconds send{30'000};  ///< for a client to take some bytes of a response
-  std::chrono::milliseconds ping{15'000};  ///< between comments on a stream without events
-  std::chrono::milliseconds drain{2'000};  ///< for requests and responses under way when the service stops
+  std::chrono::milliseconds idle{75'000};     ///< to the first byte of a request
+  std::chrono::milliseconds head{10'000};     ///< from the first byte to the end of the head
+  std::chrono::milliseconds body{60'000};     ///< to receive the body
+  std::chrono::milliseconds send{30'000};     ///< for a client to take some bytes of a response
+  std::chrono::milliseconds ping{15'000};     ///< between comments on a stream without events
+  std::chrono::milliseconds reading{10'000};  ///< to read and check what was sent, and to answer
+  std::chrono::milliseconds drain{2'000};     ///< for requests and responses under way when the service stops
 };
 
 /// Options of a listener.

@@ -38,6 +38,11 @@ class RequestReader {
   [[nodiscard]] std::size_t held() const { return buffer_.size() + (chunks_ ? chunks_->size() : 0); }
   /// Releases memory that an earlier, larger request needed.
   void shrink();
+  /// Forgets what it holds. The reader must not be used then.
+  void release() {
+    std::string().swap(buffer_);
+    chunks_.reset();
+  }
 
  private:
   Received refused(Head head);

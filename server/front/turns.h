@@ -1,46 +1,90 @@
 #pragma once
 /// @file
-/// Limits how many clients are worked on at a time; others wait in the order of arrival.
+/// Limits how many clients are worked on at a time, fairly by party.
 
 #include <cstdint>
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <unordered_map>
 
 namespace snapthrough::server::http {
 
-/// A fixed number of turns. Thread-safe; no function blocks.
+/// @brief A fixed number of turns, of which one party has a part at most. Thread-safe; no function blocks.
+///
+/// A party is whoever shares a key or an address. Parties that wait are served in rotation, the clients of
+/// one party in the order of their arrival.
 class Turns {
  public:
-  explicit Turns(int count) : free_(count) {}
+  Turns(int count, int of_one_party) : free_(count), of_one_party_(of_one_party) {}
 
-  /// Returns whether `who` gets a turn at once; else `who` joins the end of the queue for pass().
-  bool take(std::uint64_t who) {
+  /// Returns whether `who` gets a turn at once; else `who` joins the end of its party's row for pass().
+  bool take(std::uint64_t who, const std::string& party) {
     const std::lock_guard guard(mutex_);
-    if (free_ == 0) {
-      row_.push_back(who);
-      return false;
+    Party& its = parties_[party];
+    if (free_ > 0 && its.held < of_one_party_) {
+      --free_;
+      ++its.held;
+      return true;
     }
-    --free_;
-    return true;
+    if (its.row.empty()) {
+      rotation_.push_back(party);
+    }
+    its.row.push_back(who);
+    return false;
   }
 
-  /// Passes a turn to the first in the queue and returns it; nullopt when the queue is empty.
-  std::optional<std::uint64_t> pass() {
+  /// A client with a turn.
+  struct Next {
+    std::uint64_t who = 0;
+    std::string party;
+  };
+
+  /// Takes a turn back from a party and gives it to the next that waits; nullopt when none may have it.
+  std::optional<Next> pass(const std::string& party) {
     const std::lock_guard guard(mutex_);
-    if (row_.empty()) {
-      ++free_;
-      return std::nullopt;
+    ++free_;
+    --parties_[party].held;
+    forget_if_idle(party);
+    for (std::size_t i = 0; i < rotation_.size(); ++i) {
+      const std::string next = std::move(rotation_.front());
+      rotation_.pop_front();
+      Party& its = parties_[next];
+      if (its.held == of_one_party_) {
+        rotation_.push_back(next);
+        continue;
+      }
+      const std::uint64_t who = its.row.front();
+      its.row.pop_front();
+      if (!its.row.empty()) {
+        rotation_.push_back(next);
+      }
+      --free_;
+      ++its.held;
+      return Next{who, next};
     }
-    const std::uint64_t next = row_.front();
-    row_.pop_front();
-    return next;
+    return std::nullopt;
   }
 
  private:
+  struct Party {
+    int held = 0;
+    std::deque<std::uint64_t> row;
+  };
+
+  void forget_if_idle(const std::string& party) {
+    const auto its = parties_.find(party);
+    if (its->second.held == 0 && its->second.row.empty()) {
+      parties_.erase(its);
+    }
+  }
+
   std::mutex mutex_;
   int free_;
-  std::deque<std::uint64_t> row_;
+  const int of_one_party_;
+  std::unordered_map<std::string, Party> parties_;
+  std::deque<std::string> rotation_;  ///< parties with a row
 };
 
 }  // namespace snapthrough::server::http

@@ -7,9 +7,6 @@
 namespace snapthrough::server {
 namespace {
 
-/// Largest text, in bytes, of a small document.
-constexpr std::size_t kSmall = 256 * 1024;
-
 /// Bytes for each unknown, a lower bound: what each further unknown of a large mesh takes is 475 and more
 /// (linear static analysis, order 5). The test MemoryLimit.TheLeastIsBelowEveryPeak compares peaks of small
 /// meshes.

@@ -18,6 +18,8 @@ namespace snapthrough::server {
 /// the system.
 class LargeDocument {
  public:
+  static constexpr std::size_t kSmall = 256 * 1024;  ///< largest text, in bytes, of a small document
+
   explicit LargeDocument(std::size_t text_bytes);
   ~LargeDocument();
   LargeDocument(LargeDocument&&) = default;

@@ -1,8 +1,10 @@
 #include "server/resources/negotiation.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "api/names.h"
 #include "server/jobs/envelope.h"
@@ -29,18 +31,15 @@ Response refused_document(const Request& request, Submission submission) {
   return problem_response(problem, request);
 }
 
-std::optional<api::TableForm> accepted_form(std::string_view range) {
-  if (equal_ignoring_case(range, "text/csv") || range == "text/*") {
-    return api::TableForm::csv;
+/// Returns the weight (";q=0.5") of an element of a list; 1 without one.
+double weight_of(std::string_view part) {
+  const std::size_t semicolon = part.find(';');
+  const std::size_t quality = semicolon == part.npos ? part.npos : part.find("q=", semicolon);
+  double weight = 1.0;
+  if (quality != part.npos) {
+    std::from_chars(part.data() + quality + 2, part.data() + part.size(), weight);
   }
-  for (const char* name : {"application/x-ndjson", "application/ndjson", "application/jsonl"}) {
-    if (equal_ignoring_case(range, name)) {
-      return api::TableForm::ndjson;
-    }
-  }
-  const bool json =
-      equal_ignoring_case(range, "application/json") || range == "*/*" || range == "application/*";
-  return json ? std::optional(api::TableForm::json) : std::nullopt;
+  return weight;
 }
 
 /// Returns the cursor of a place in a list: "<microseconds>.<number>".
@@ -168,11 +167,7 @@ bool takes_gzip(std::string_view accepted) {
     if (!named && coding != "*") {
       continue;
     }
-    const std::size_t quality = semicolon == part.npos ? part.npos : part.find("q=", semicolon);
-    double weight = 1.0;
-    if (quality != part.npos) {
-      std::from_chars(part.data() + quality + 2, part.data() + part.size(), weight);
-    }
+    const double weight = weight_of(part);
     if (named) {
       return weight > 0.0;
     }
@@ -251,6 +246,30 @@ std::optional<Request> as_csv(const Request& request) {
   return csv;
 }
 
+std::optional<std::size_t> preferred_type(std::string_view accept,
+                                          std::span<const std::string_view> offered) {
+  std::vector<double> weights(offered.size(), 0.0);
+  std::vector<int> specific(offered.size(), -1);
+  for (const std::string_view part : split_list(accept, ',')) {
+    const std::string_view range = trimmed(part.substr(0, part.find(';')));
+    for (std::size_t i = 0; i < offered.size(); ++i) {
+      const std::string_view family = offered[i].substr(0, offered[i].find('/') + 1);
+      const int how = equal_ignoring_case(range, offered[i])                  ? 2
+                      : equal_ignoring_case(range, std::string(family) + "*") ? 1
+                      : range == "*/*"                                        ? 0
+                                                                              : -1;
+      if (how > specific[i]) {
+        specific[i] = how;
+        weights[i] = weight_of(part);
+      }
+    }
+  }
+  const auto best = std::max_element(weights.begin(), weights.end());
+  return best != weights.end() && *best > 0.0
+             ? std::optional(static_cast<std::size_t>(best - weights.begin()))
+             : std::nullopt;
+}
+
 std::optional<api::TableForm> wanted_table_form(const Request& request) {
   for (const auto& [name, value] : request.query) {
     if (name == "format") {
@@ -261,16 +280,12 @@ std::optional<api::TableForm> wanted_table_form(const Request& request) {
   if (!accept || trimmed(*accept).empty()) {
     return api::TableForm::json;
   }
-  std::optional<api::TableForm> form;
-  for (const std::string_view part : split_list(*accept, ',')) {
-    const bool none = part.find("q=0") != part.npos && part.find("q=0.") == part.npos;
-    const auto accepted = none ? std::nullopt : accepted_form(trimmed(part.substr(0, part.find(';'))));
-    if (accepted == api::TableForm::json) {
-      return accepted;
-    }
-    form = form ? form : accepted;
-  }
-  return form;
+  static constexpr std::array<std::string_view, 5> kTypes{
+      "application/json", "text/csv", "application/x-ndjson", "application/ndjson", "application/jsonl"};
+  static constexpr std::array kForms{api::TableForm::json, api::TableForm::csv, api::TableForm::ndjson,
+                                     api::TableForm::ndjson, api::TableForm::ndjson};
+  const std::optional<std::size_t> best = preferred_type(*accept, kTypes);
+  return best ? std::optional(kForms[*best]) : std::nullopt;
 }
 
 }  // namespace snapthrough::server::http

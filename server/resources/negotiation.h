@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -70,6 +71,12 @@ inline constexpr int kLargestPage = 1000;
 /// @brief Returns a copy of the request that asks for CSV, whatever it accepts; nullopt when its query has
 /// `format`.
 [[nodiscard]] std::optional<Request> as_csv(const Request& request);
+
+/// @brief Returns the index of the offered media type that an Accept header weighs highest, the first of
+/// equal ones; nullopt when it accepts none. The most specific range that a type is in has its weight (RFC
+/// 9110, 12.5.1).
+[[nodiscard]] std::optional<std::size_t> preferred_type(std::string_view accept,
+                                                        std::span<const std::string_view> offered);
 
 /// Returns the table form that the client accepts (?format= before Accept); JSON when it accepts any.
 [[nodiscard]] std::optional<api::TableForm> wanted_table_form(const Request& request);

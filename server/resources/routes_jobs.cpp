@@ -35,7 +35,7 @@ std::optional<std::string> query_value(const Request& request, std::string_view 
 }
 
 /// Returns the form of a result that the client accepts (?format= before Accept); CSV if only `table` is
-/// given, else JSON if it accepts both.
+/// given, else what it weighs higher, JSON if it accepts both alike.
 Form wanted_form(const Request& request) {
   if (const auto value = query_value(request, "format")) {
     return *value == "csv" ? Form::csv : *value == "json" ? Form::json : Form::none;
@@ -47,20 +47,9 @@ Form wanted_form(const Request& request) {
   if (!accept || trimmed(*accept).empty()) {
     return Form::json;
   }
-  Form form = Form::none;
-  for (const std::string_view part : split_list(*accept, ',')) {
-    const std::string_view range = trimmed(part.substr(0, part.find(';')));
-    if (part.find("q=0") != part.npos && part.find("q=0.") == part.npos) {
-      continue;
-    }
-    if (equal_ignoring_case(range, "application/json") || range == "*/*" || range == "application/*") {
-      return Form::json;
-    }
-    if (equal_ignoring_case(range, "text/csv") || range == "text/*") {
-      form = Form::csv;
-    }
-  }
-  return form;
+  static constexpr std::array<std::string_view, 2> kTypes{"application/json", "text/csv"};
+  const std::optional<std::size_t> best = preferred_type(*accept, kTypes);
+  return !best ? Form::none : *best == 0 ? Form::json : Form::csv;
 }
 
 /// Returns the Preference-Applied header (RFC 7240) of a response.

@@ -9,6 +9,7 @@
 
 #include "solver/geometry/cubic_spline.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough {
 namespace {
@@ -158,6 +159,7 @@ void AxisCurve::set_parametric(std::function<Jet(double)> jet, int intervals) {
   table_speed_.assign(1, speed_of(j));
   const double dt = 1.0 / intervals;
   for (int i = 0; i < intervals; ++i) {
+    WorkLimit::poll();
     double ds = 0.0;
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
       j = jet_((i + gauss.points[q]) * dt);

@@ -5,10 +5,12 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <thread>
 
 #include "server/authority.h"
@@ -21,6 +23,7 @@
 #include "server/jobs/path_batch.h"
 #include "server/jobs/waiting_count.h"
 #include "server/log/log.h"
+#include "server/resources/negotiation.h"
 #include "server/resources/prefer.h"
 #include "tests/server/support/samples.h"
 
@@ -108,21 +111,68 @@ http::Preferences preferences(std::vector<std::string> values) {
   return http::read_preferences(request);
 }
 
+TEST(PreferredType, HasTheHighestWeightOfItsMostSpecificRange) {
+  static constexpr std::array<std::string_view, 2> kTypes{"application/json", "text/csv"};
+  const auto preferred = [](std::string_view accept) {
+    const auto best = http::preferred_type(accept, kTypes);
+    return best ? static_cast<int>(*best) : -1;
+  };
+  EXPECT_EQ(preferred("application/json;q=0.5, text/csv"), 1);
+  EXPECT_EQ(preferred("text/csv;q=0.8, */*;q=0.9"), 0);
+  EXPECT_EQ(preferred("text/*;q=0.9, application/*;q=0.1"), 1);
+  EXPECT_EQ(preferred("text/csv;q=0, */*"), 0);
+  EXPECT_EQ(preferred("application/json;q=0, */*"), 1);
+  EXPECT_EQ(preferred("text/csv, application/json"), 0) << "alike: the first that is offered";
+  EXPECT_EQ(preferred("image/png"), -1);
+  EXPECT_EQ(preferred("application/json;q=0.0"), -1);
+}
+
+std::uint64_t passed(http::Turns& turns, const std::string& party) {
+  const auto next = turns.pass(party);
+  return next ? next->who : 0;
+}
+
 TEST(Turns, GoToThoseWhoWaitInTheirOrder) {
-  http::Turns turns(2);
-  EXPECT_TRUE(turns.take(1));
-  EXPECT_TRUE(turns.take(2));
-  EXPECT_FALSE(turns.take(3));
-  EXPECT_FALSE(turns.take(4));
-  EXPECT_EQ(turns.pass(), 3U);
-  EXPECT_FALSE(turns.take(5));
-  EXPECT_EQ(turns.pass(), 4U);
-  EXPECT_EQ(turns.pass(), 5U);
-  EXPECT_EQ(turns.pass(), std::nullopt);
-  EXPECT_EQ(turns.pass(), std::nullopt);
-  EXPECT_TRUE(turns.take(6));
-  EXPECT_TRUE(turns.take(7));
-  EXPECT_FALSE(turns.take(8));
+  http::Turns turns(2, 2);
+  EXPECT_TRUE(turns.take(1, "a"));
+  EXPECT_TRUE(turns.take(2, "a"));
+  EXPECT_FALSE(turns.take(3, "a"));
+  EXPECT_FALSE(turns.take(4, "a"));
+  EXPECT_EQ(passed(turns, "a"), 3U);
+  EXPECT_FALSE(turns.take(5, "a"));
+  EXPECT_EQ(passed(turns, "a"), 4U);
+  EXPECT_EQ(passed(turns, "a"), 5U);
+  EXPECT_EQ(passed(turns, "a"), 0U);
+  EXPECT_EQ(passed(turns, "a"), 0U);
+  EXPECT_TRUE(turns.take(6, "a"));
+  EXPECT_TRUE(turns.take(7, "a"));
+  EXPECT_FALSE(turns.take(8, "a"));
+}
+
+TEST(Turns, OnePartyLeavesSomeToOthers) {
+  http::Turns turns(3, 2);
+  EXPECT_TRUE(turns.take(1, "a"));
+  EXPECT_TRUE(turns.take(2, "a"));
+  EXPECT_FALSE(turns.take(3, "a")) << "it has its part, although a turn is free";
+  EXPECT_TRUE(turns.take(4, "b"));
+  EXPECT_EQ(passed(turns, "b"), 0U) << "a still has its part";
+  EXPECT_EQ(passed(turns, "a"), 3U);
+}
+
+TEST(Turns, PartiesRotate) {
+  http::Turns turns(1, 1);
+  EXPECT_TRUE(turns.take(1, "a"));
+  for (const std::uint64_t who : {2, 3, 4}) {
+    EXPECT_FALSE(turns.take(who, "a"));
+  }
+  EXPECT_FALSE(turns.take(5, "b"));
+  EXPECT_FALSE(turns.take(6, "c"));
+  EXPECT_EQ(passed(turns, "a"), 2U);
+  EXPECT_EQ(passed(turns, "a"), 5U);
+  EXPECT_EQ(passed(turns, "b"), 6U);
+  EXPECT_EQ(passed(turns, "c"), 3U);
+  EXPECT_EQ(passed(turns, "a"), 4U);
+  EXPECT_EQ(passed(turns, "a"), 0U);
 }
 
 TEST(Bell, ARingBeforeTheSleepIsNotMissedAndSeveralAreOne) {

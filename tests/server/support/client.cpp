@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <strings.h>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -49,6 +50,11 @@ void Socket::send(const std::string& bytes) const {
     }
     sent += static_cast<std::size_t>(count);
   }
+}
+
+bool Socket::readable() const {
+  pollfd state{descriptor_, POLLIN, 0};
+  return !buffer_.empty() || ::poll(&state, 1, 0) > 0;
 }
 
 bool Socket::fill() {

@@ -38,6 +38,8 @@ class Socket {
   std::string rest();
   /// The same, in pieces with a pause after each; the kernel keeps little meanwhile.
   std::string read_slowly(std::size_t piece, std::chrono::milliseconds pause);
+  /// Whether something has arrived, or the other side has closed.
+  [[nodiscard]] bool readable() const;
   /// Whether the other side has closed and nothing is left to read.
   [[nodiscard]] bool at_end();
 

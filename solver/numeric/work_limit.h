@@ -1,0 +1,36 @@
+#pragma once
+/// @file
+/// Limit of the work that a caller waits for on its thread.
+
+#include <functional>
+
+namespace snapthrough {
+
+/// Thrown by WorkLimit::poll() where the limit is reached. Not an std::exception, so that nothing takes it
+/// for a failure of its own.
+struct WorkEnded {};
+
+/// @brief While it lives, loops of this thread whose length a document sets end when it is over.
+///
+/// They call poll(). Reading and checking of a model poll at each thing of a list and along each curve.
+/// Limits nest: the innermost one holds.
+class WorkLimit {
+ public:
+  /// @param is_over whether the work is to end; called at some polls. It must not throw.
+  explicit WorkLimit(std::function<bool()> is_over);
+  ~WorkLimit();
+  WorkLimit(const WorkLimit&) = delete;
+  WorkLimit& operator=(const WorkLimit&) = delete;
+  WorkLimit(WorkLimit&&) = delete;
+  WorkLimit& operator=(WorkLimit&&) = delete;
+
+  /// Throws WorkEnded when the limit of this thread is over; does nothing without a limit.
+  static void poll();
+
+ private:
+  std::function<bool()> is_over_;
+  WorkLimit* outer_;
+  unsigned polls_ = 0;
+};
+
+}  // namespace snapthrough

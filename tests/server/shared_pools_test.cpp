@@ -1,0 +1,188 @@
+/// @file
+/// What all clients share, one party cannot take: time and turns for reading, memory for bodies, streams.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/server/support/running_service.h"
+
+namespace snapthrough::server::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""s;
+
+const Headers kAnn{"Content-Type: application/json", "Authorization: Bearer alice"};
+const Headers kBob{"Content-Type: application/json", "Authorization: Bearer bob"};
+
+/// A request of a few kilobytes that takes a minute and more to check: each curve has a table of its length.
+std::string costly_request() {
+  json request = json::parse(column_request());
+  json nodes = json::array({{{"id", "n0"}, {"x", 0}, {"y", 0}}});
+  json members = json::array();
+  for (int i = 0; i < 2000; ++i) {
+    const std::string end = "n" + std::to_string(i + 1);
+    nodes.push_back({{"id", end}, {"x", i + 1}, {"y", 0}});
+    members.push_back({{"id", "m" + std::to_string(i)},
+                       {"start", "n" + std::to_string(i)},
+                       {"end", end},
+                       {"section", request["model"]["sections"][0]["id"]},
+                       {"curve", {{"type", "sine"}, {"rise", 0.01}, {"half_waves", 1000}}}});
+  }
+  request["model"] = {{"nodes", nodes},
+                      {"sections", request["model"]["sections"]},
+                      {"members", members},
+                      {"supports", {{{"node", "n0"}, {"fixed", {"x", "y", "rotation"}}}}},
+                      {"loads", {{{"type", "point"}, {"at", {{"node", "n2000"}}}, {"force", {-1, 0}}}}}};
+  return request.dump();
+}
+
+std::string posted(const std::string& target, const std::string& body, const Headers& headers,
+                   std::size_t announced = 0) {
+  std::string text = "POST " + target + " HTTP/1.1\r\nHost: localhost\r\n";
+  for (const std::string& header : headers) {
+    text += header + "\r\n";
+  }
+  return text + "Content-Length: " + std::to_string(std::max(announced, body.size())) + "\r\n\r\n" + body;
+}
+
+class SharedPools : public ServiceTest {
+ protected:
+  ServiceConfig keyed() const {
+    ServiceConfig keyed = config();
+    // SHA-256 of "alice" and "bob", from sha256sum.
+    keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
+                  {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
+    keyed.listener.limits.body_bytes = 1'000'000;
+    return keyed;
+  }
+  void start_with(const ServiceConfig& config) {
+    service_ = std::make_unique<Service>(config, Environment::system(), local_runners(quick), log_);
+    const Status status = service_->start();
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+  static Result quick(const Model&, const Analysis&, const Hooks&) { return {}; }
+};
+
+TEST_F(SharedPools, ReadingEndsAtItsLimit) {
+  ServiceConfig hasty = keyed();
+  hasty.listener.times.reading = 200ms;
+  start_with(hasty);
+  for (const char* target : {"/v1/check", "/v1/jobs"}) {
+    const Reply reply = post(port(), target, costly_request(), kAnn);
+    EXPECT_EQ(reply.status, 422) << target << reply.body;
+    EXPECT_THAT(reply.body, HasSubstr("too-costly-to-read")) << target;
+  }
+  EXPECT_EQ(json::parse(get(port(), "/v1/jobs", kAnn).body)["jobs"].size(), 0U);
+}
+
+TEST_F(SharedPools, OneReadersDocumentsLeaveTurnsToOthersAndDoNotHoldTheEnd) {
+  ServiceConfig patient = keyed();
+  patient.listener.threads = 4;
+  patient.listener.times.reading = 3600s;
+  start_with(patient);
+  std::vector<std::unique_ptr<Socket>> costly;
+  for (int i = 0; i < 8; ++i) {
+    costly.push_back(std::make_unique<Socket>(port()));
+    costly.back()->send(posted("/v1/check", costly_request(), kAnn));
+  }
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(post(port(), "/v1/jobs", column_request(std::to_string(i)), kBob).status, 200);
+  }
+  service_.reset();  // does not wait for the hours that reading may take
+  for (const auto& socket : costly) {
+    const Reply reply = socket->receive();
+    EXPECT_TRUE(reply.status == 422 || reply.status == 0) << reply.status;
+  }
+}
+
+TEST_F(SharedPools, ReadingEndsWhenItsClientHasGone) {
+  ServiceConfig patient = keyed();
+  patient.listener.threads = 4;
+  patient.listener.times.reading = 3600s;
+  start_with(patient);
+  for (int i = 0; i < 3; ++i) {
+    Socket(port()).send(posted("/v1/check", costly_request(), kAnn));
+  }
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request(), kAnn).status, 200)
+      << "the one turn of the party is free again";
+}
+
+TEST_F(SharedPools, AKeyIsJudgedBeforeTheBodyComes) {
+  start_with(keyed());
+  for (const char* expectation : {"X: y", "Expect: 100-continue"}) {
+    Socket socket(port());
+    socket.send(posted("/v1/jobs", "", {"Content-Type: application/json", expectation}, 900'000));
+    const Reply reply = socket.receive();
+    EXPECT_EQ(reply.status, 401) << expectation;
+    EXPECT_EQ(reply.header("WWW-Authenticate"), "Bearer");
+  }
+  Socket known(port());
+  known.send(posted("/v1/jobs", "",
+                    {"Content-Type: application/json", "Authorization: Bearer bob", "Expect: 100-continue"},
+                    column_request().size()));
+  EXPECT_EQ(known.receive(true).status, 100);
+  known.send(column_request());
+  EXPECT_EQ(known.receive().status, 200);
+}
+
+TEST_F(SharedPools, OnePartyHasHalfOfTheMemoryForBodies) {
+  ServiceConfig small = keyed();
+  small.listener.limits.body_bytes = 100'000;
+  small.listener.limits.buffered_bytes = 600'000;
+  start_with(small);
+  std::vector<std::unique_ptr<Socket>> senders;
+  for (int i = 0; i < 12; ++i) {
+    senders.push_back(std::make_unique<Socket>(port()));
+    senders.back()->send(posted("/v1/jobs", std::string(80'000, ' '), kAnn, 100'000));
+  }
+  int refused = 0;
+  for (int i = 0; i < 200 && refused < 8; ++i) {
+    refused = 0;
+    for (const auto& sender : senders) {
+      refused += sender->readable() ? 1 : 0;
+    }
+    std::this_thread::sleep_for(20ms);
+  }
+  EXPECT_GE(refused, 8) << "three or four of 80 kB fit into half of 600 kB";
+  std::string large = column_request();
+  large.append(90'000 - large.size(), ' ');
+  EXPECT_EQ(post(port(), "/v1/jobs", large, kBob).status, 200);
+}
+
+TEST_F(SharedPools, OnePartyHasAQuarterOfTheStreams) {
+  ServiceConfig few = keyed();
+  few.listener.streams = 8;
+  few.keys.front().owner = "ann";
+  auto solver = std::make_shared<GatedSolver>();
+  service_ = std::make_unique<Service>(few, Environment::system(), local_runners(gated(solver)), log_);
+  ASSERT_TRUE(service_->start().ok());
+  const auto job_of = [&](const char* key) {
+    return post(port(), "/v1/jobs", column_request(),
+                {"Content-Type: application/json", "Prefer: respond-async",
+                 std::string("Authorization: Bearer ") + key})
+        .header("Location");
+  };
+  const auto stream = [&](const std::string& job, const char* key) {
+    auto socket = std::make_unique<Socket>(port());
+    socket->send("GET " + job + "/events HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer " + key +
+                 "\r\n\r\n");
+    const int status = socket->receive(true).status;
+    return std::pair(status, std::move(socket));
+  };
+  const std::string anns = job_of("alice");
+  std::vector<std::pair<int, std::unique_ptr<Socket>>> open;
+  for (int i = 0; i < 4; ++i) {
+    open.push_back(stream(anns, "alice"));
+    EXPECT_EQ(open.back().first, i < 2 ? 200 : 503) << i;
+  }
+  open.push_back(stream(job_of("bob"), "bob"));
+  EXPECT_EQ(open.back().first, 200);
+  solver->open();
+}
+
+}  // namespace
+}  // namespace snapthrough::server::test
