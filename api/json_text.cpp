@@ -63,6 +63,10 @@ class DocumentBuilder {
   bool end_array() { return close(); }
   bool key(std::string& name);
   bool parse_error(std::size_t position, const std::string& token, const Json::exception& error);
+  /// Refuses the text for the byte zero at an index: the parser takes it for the end of the text.
+  void refuse_zero_byte(std::size_t index) {
+    report("malformed", describe_position(text_, index + 1) + ": a byte zero, which is not in JSON");
+  }
 
   ParsedText take();
 
@@ -165,7 +169,11 @@ ParsedText DocumentBuilder::take() {
 
 ParsedText parse_json(std::string_view text, const ParseLimits& limits) {
   DocumentBuilder builder(text, limits);
-  Json::sax_parse(text.begin(), text.end(), &builder);
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+    builder.refuse_zero_byte(zero);
+  } else {
+    Json::sax_parse(text.begin(), text.end(), &builder);
+  }
   return builder.take();
 }
 

@@ -238,7 +238,13 @@ PointOutcome Sweep::outcome(const Json& result) const {
     }
     outputs.push_back(found.value == nullptr ? Json() : *found.value);
   }
-  return {outputs.dump(), "", ""};
+  std::string text = outputs.dump();
+  if (text.size() > kMaxOutputBytes) {
+    return {"", "outputs_too_large",
+            "the outputs of a point have at most " + std::to_string(kMaxOutputBytes) + " bytes, these have " +
+                std::to_string(text.size()) + ": point at parts of them, or solve the point as a job"};
+  }
+  return {std::move(text), "", ""};
 }
 
 }  // namespace snapthrough::api

@@ -24,6 +24,8 @@ inline constexpr std::size_t kMaxSweepParameters = 64;
 /// Largest number of targets of a parameter.
 inline constexpr std::size_t kMaxSweepTargets = 64;
 inline constexpr std::size_t kMaxSweepOutputs = 256;
+/// Bytes of the outputs of one point: rows are held whole where results are sent in pieces.
+inline constexpr std::size_t kMaxOutputBytes = std::size_t{1} << 20;
 
 struct SweepData;
 

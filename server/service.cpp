@@ -193,6 +193,9 @@ std::string Service::Parts::metrics_text() {
           runner_counters.out_of_memory);
   counter("snapthrough_runners_killed_total", "Ended because they did not stop.", runner_counters.killed);
   counter("snapthrough_runners_crashed_total", "Ended otherwise.", runner_counters.crashed);
+  gauge("snapthrough_workers_without_process",
+        "Workers that wait until the system starts a process for them.",
+        static_cast<double>(runner_counters.without_process));
   counter("snapthrough_callbacks_delivered_total", "Ends that a receiver took.", webhook_counters.delivered);
   counter("snapthrough_callback_attempts_failed_total", "Requests to receivers that failed.",
           webhook_counters.failed);
@@ -219,6 +222,10 @@ std::string Service::Parts::not_ready() const {
   }
   if (jobs.context().waiting.value() >= jobs.limits().queue) {
     return "The queue is full.";
+  }
+  if (runner_counters.without_process > 0) {
+    return "The system starts no process for an analysis: too many descriptors or processes, or too little "
+           "memory.";
   }
   return store->get("").ok() ? "" : "The store can't be read.";
 }

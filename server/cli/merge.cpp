@@ -28,6 +28,7 @@ PartRows rows_of(PartReader& reader, const api::Sweep& sweep) {
   const UnitRange units = units_of(reader.part(), sweep);
   PartRows rows{reader.path(), reader.part(), units.first * sweep.unit_size(),
                 (units.end - units.first) * sweep.unit_size(), 0};
+  reader.require_outputs(sweep.output_count());
   while (const auto row = reader.next()) {
     if (row->first != rows.first + rows.present || rows.present == rows.points) {
       throw std::runtime_error(rows.path + " has a row of point " + std::to_string(row->first) +

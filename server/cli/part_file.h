@@ -55,6 +55,8 @@ class PartReader {
   [[nodiscard]] const SweepPart& part() const { return part_; }
   [[nodiscard]] const nlohmann::json& document() const { return document_; }
 
+  /// Refuses rows with another number of outputs from now on.
+  void require_outputs(std::size_t count) { outputs_ = count; }
   /// Returns the next row; nullopt after the last complete row.
   [[nodiscard]] std::optional<std::pair<std::uint64_t, api::PointOutcome>> next();
   /// Returns the number of bytes read: the head and complete rows.
@@ -68,6 +70,7 @@ class PartReader {
   std::ifstream file_;
   SweepPart part_;
   nlohmann::json document_;
+  std::optional<std::size_t> outputs_;
   std::uint64_t bytes_ = 0;
 };
 

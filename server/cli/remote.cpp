@@ -1,5 +1,7 @@
 #include "server/cli/remote.h"
 
+#include <sys/stat.h>
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -74,6 +76,10 @@ int tell_problem(const Answer& answer, const RemoteService& service, const Strea
 /// Returns the first line of a file; nullopt after a message on `err` when it is unreadable or empty.
 std::optional<std::string> read_key(const std::string& path, const Streams& streams) {
   std::ifstream file(path);
+  struct stat info {};
+  if (::stat(path.c_str(), &info) == 0 && (info.st_mode & (S_IRGRP | S_IROTH)) != 0) {
+    streams.err << "snapthrough: others can read the key in " << path << "; `chmod 600` keeps it to you\n";
+  }
   std::string line;
   std::getline(file, line);
   line.erase(line.find_last_not_of(" \t\r") + 1);

@@ -3,6 +3,8 @@
 #include <functional>
 #include <utility>
 
+#include "server/environment.h"
+
 namespace snapthrough::server::http {
 namespace {
 
@@ -27,6 +29,18 @@ bool matches(std::string_view pattern, std::string_view path, Segments& found) {
     path.remove_prefix(path_end);
   }
   return pattern.empty() && path.empty();
+}
+
+/// Whether an id cannot be that of a job or sweep: a store is not asked for it, whatever bytes it has.
+bool names_nothing(std::string_view pattern, std::string_view id) {
+  return (pattern.starts_with("/v1/jobs/{id}") || pattern.starts_with("/v1/sweeps/{id}")) && !is_id(id);
+}
+
+Response missing(const Request& request, std::string_view pattern) {
+  return pattern.starts_with("/v1/jobs/")
+             ? simple_problem(request, 404, "no-such-job", "No such job", "There is no job with this id.")
+             : simple_problem(request, 404, "no-such-sweep", "No such sweep",
+                              "There is no sweep with this id.");
 }
 
 }  // namespace
@@ -136,10 +150,17 @@ Response Routes::respond(const Request& request) {
     if (method != route.method || !matches(route.pattern, request.path, found)) {
       continue;
     }
-    Response response = route.handler ? route.handler(*this, request, found.id)
-                                      : route.point_handler(*this, request, found.id, found.point);
+    Response response = names_nothing(route.pattern, found.id) ? missing(request, route.pattern)
+                        : route.handler                        ? route.handler(*this, request, found.id)
+                                        : route.point_handler(*this, request, found.id, found.point);
     response.route = route.pattern;
     return response;
+  }
+  if (request.path == "/openapi.json" && method == "GET") {
+    Response moved;
+    moved.status = 308;
+    moved.headers.emplace_back("Location", "/v1/openapi.json");
+    return moved;
   }
   std::optional<Response> file = facts_.page.respond(request);
   if (file && method == "GET") {

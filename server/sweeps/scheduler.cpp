@@ -39,7 +39,13 @@ bool SweepScheduler::has(const std::string& id) const {
   return std::any_of(sweeps_.begin(), sweeps_.end(), [&](const auto& sweep) { return sweep->id == id; });
 }
 
-bool SweepScheduler::has_room() const { return count() < kMost; }
+void SweepScheduler::give_turns_to(const std::vector<std::string>& ids) {
+  const std::lock_guard guard(mutex_);
+  for (const std::shared_ptr<ActiveSweep>& sweep : sweeps_) {
+    sweep->aside_ = std::find(ids.begin(), ids.end(), sweep->id) == ids.end();
+  }
+  look();
+}
 
 std::size_t SweepScheduler::count() const {
   const std::lock_guard guard(mutex_);
@@ -47,8 +53,8 @@ std::size_t SweepScheduler::count() const {
 }
 
 void SweepScheduler::look() {
-  available_ =
-      std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& sweep) { return !sweep->exhausted_; });
+  available_ = std::any_of(sweeps_.begin(), sweeps_.end(),
+                           [](const auto& sweep) { return !sweep->aside_ && !sweep->exhausted_; });
 }
 
 double SweepScheduler::chunk_seconds() const {
@@ -81,11 +87,11 @@ std::uint64_t SweepScheduler::served(const std::string& owner) const {
 std::optional<SweepTurn> SweepScheduler::next(double seconds) {
   const std::lock_guard guard(mutex_);
   const auto order = [&](const auto& sweep) {
-    return std::tuple(sweep->exhausted_, served(sweep->owner), sweep->served_);
+    return std::tuple(sweep->aside_ || sweep->exhausted_, served(sweep->owner), sweep->served_);
   };
   const auto first = std::min_element(sweeps_.begin(), sweeps_.end(),
                                       [&](const auto& a, const auto& b) { return order(a) < order(b); });
-  if (first == sweeps_.end() || (*first)->exhausted_) {
+  if (first == sweeps_.end() || (*first)->aside_ || (*first)->exhausted_) {
     return std::nullopt;
   }
   ActiveSweep& sweep = **first;
@@ -101,7 +107,9 @@ void SweepScheduler::exhausted(const SweepTurn& turn) {
 
 void SweepScheduler::refresh() {
   const std::lock_guard guard(mutex_);
-  std::erase_if(sweeps_, [](const auto& sweep) { return sweep->exhausted_ && sweep.use_count() == 1; });
+  std::erase_if(sweeps_, [](const auto& sweep) {
+    return (sweep->aside_ || sweep->exhausted_) && sweep.use_count() == 1;
+  });
   for (const std::shared_ptr<ActiveSweep>& sweep : sweeps_) {
     ++sweep->changes_;
     sweep->exhausted_ = false;

@@ -37,6 +37,7 @@ class ActiveSweep {
 
  private:
   friend class SweepScheduler;
+  bool aside_ = false;             ///< waits until it is among those that the owners' rotation gives turns
   bool exhausted_ = false;         ///< at the last look other workers had all units that are left
   std::uint64_t changes_ = 0;      ///< number of times that units may have come back
   std::uint64_t served_ = 0;       ///< number of its last turn
@@ -63,13 +64,14 @@ struct Chunk {
 /// Results do not depend on the order: each unit is computed alone.
 class SweepScheduler {
  public:
-  /// Most sweeps at a time.
+  /// Most sweeps with turns at a time.
   static constexpr std::size_t kMost = 8;
 
   /// Adds a sweep; returns false when a sweep of that id is there.
   bool add(std::shared_ptr<ActiveSweep> sweep);
   [[nodiscard]] bool has(const std::string& id) const;
-  [[nodiscard]] bool has_room() const;
+  /// Gives turns to these sweeps only; the units that workers have of others go on.
+  void give_turns_to(const std::vector<std::string>& ids);
   /// Whether a sweep may have units left.
   [[nodiscard]] bool has_units() const { return available_; }
   [[nodiscard]] std::size_t count() const;

@@ -200,17 +200,22 @@ void SweepWork::load() {
       return std::find(ids->begin(), ids->end(), id) == ids->end();
     });
   }
+  // the store gives the first sweep of each owner, then the second ones: a new owner's sweep comes before the
+  // second of another, which is put aside
+  std::vector<std::string> first;
   for (const std::string& id : ids.ok() ? *ids : std::vector<std::string>()) {
-    if (scheduler_.has(id) || foreign_.contains(id)) {
-      continue;
-    }
-    all = scheduler_.has_room() && load_one(id) && all;
-    if (!scheduler_.has_room()) {
-      break;
+    if (first.size() < SweepScheduler::kMost && !foreign_.contains(id)) {
+      first.push_back(id);
     }
   }
-  if (!all && scheduler_.has_room()) {
-    unloaded_ = true;  // the store failed: the next call tries again
+  if (ids.ok()) {
+    scheduler_.give_turns_to(first);
+  }
+  for (const std::string& id : first) {
+    all = (scheduler_.has(id) || load_one(id)) && !foreign_.contains(id) && all;
+  }
+  if (!all) {
+    unloaded_ = true;  // the store failed, or another one has its place: the next call tries again
   }
 }
 

@@ -4,10 +4,15 @@
 #include <httplib.h>
 #include <sys/socket.h>
 
+#include "server/webhooks/received_bytes.h"
+
 namespace snapthrough::server {
 namespace {
 
 constexpr std::size_t kMostRead = 65536;  // bytes read of a response body; its sender can then finish
+/// Bytes of a response, its head among them, after which the connection is cut: the library has no bound on
+/// the length of a line of a head.
+constexpr std::uint64_t kMostReceived = 1 << 20;
 
 }  // namespace
 
@@ -18,7 +23,8 @@ void Poster::watch(int socket) {
 
 void Poster::cut_late(bool now) {
   const std::lock_guard guard(mutex_);
-  if (socket_.get() >= 0 && (now || Clock::now() > deadline_)) {
+  if (socket_.get() >= 0 &&
+      (now || Clock::now() > deadline_ || received_bytes(socket_.get()) > kMostReceived)) {
     ::shutdown(socket_.get(), SHUT_RDWR);
   }
 }

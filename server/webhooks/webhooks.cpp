@@ -11,7 +11,7 @@
 namespace snapthrough::server {
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenCuts{50};
+constexpr std::chrono::milliseconds kBetweenCuts{20};
 constexpr std::chrono::seconds kAfterStoreTrouble{5};
 
 /// Blocks SIGPIPE: a write to a closed socket then returns an error.

@@ -38,6 +38,8 @@ constexpr std::uint64_t kMostBeside = 1 << 20;
 constexpr std::size_t kMostNews = 4 << 20;
 /// Longest time for which a process may leave sent bytes unread; a process without task reads at once.
 constexpr timeval kLongestSend{5, 0};
+/// Pause before another attempt to start a process.
+constexpr std::chrono::milliseconds kStartPause{200};
 /// Number of sweeps that a process knows before it must forget all of them.
 constexpr std::size_t kMostSweeps = 16;
 
@@ -90,7 +92,7 @@ void ChildRunner::start() {
   std::array<int, 2> controls{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, completions.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
-    return;  // the next task finds no process and fails
+    return;  // has_process() tries again
   }
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, controls.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
@@ -143,6 +145,23 @@ void ChildRunner::start() {
   task_ = 0;
 }
 
+/// Waits until the system starts a process, which is not the fault of a task; false when `stop` is requested
+/// first.
+bool ChildRunner::has_process(const std::stop_token& stop) {
+  if (process_ != 0) {
+    return true;
+  }
+  ++counters_.without_process;
+  while (process_ == 0 && !stop.stop_requested()) {
+    replace();
+    if (process_ == 0) {
+      pause(stop, kStartPause);
+    }
+  }
+  --counters_.without_process;
+  return process_ != 0;
+}
+
 /// Starts a successor of a process that has ended or shall end. The successor knows no sweeps.
 void ChildRunner::replace() {
   if (process_ != 0) {
@@ -170,7 +189,7 @@ ChildRunner::End ChildRunner::end_of_process(bool killed) {
 
 /// Sends a frame; kills a process that does not read it. @return whether the process can still answer
 bool ChildRunner::send(FrameType type, std::string_view body) {
-  if (process_ == 0 || write_frame(socket_, type, body)) {
+  if (write_frame(socket_, type, body)) {
     return true;
   }
   ::kill(process_, SIGKILL);
@@ -213,11 +232,6 @@ std::optional<bool> ChildRunner::take_frame(Watch& watch) {
 /// Receives the frames of a task until the last one, the end of the process, or the end of the grace period
 /// after a stop request.
 ChildRunner::End ChildRunner::attend(Watch& watch) {
-  if (process_ == 0) {
-    ++counters_.crashed;
-    replace();
-    return End::crashed;
-  }
   alarm_.silence();  // clears a stop request that arrived while a process ended
   const std::stop_callback on_stop(watch.stop, [this] { alarm_.ring(); });
   std::optional<Clock::time_point> deadline;
@@ -295,7 +309,7 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
                   pass_on(frame, hooks);
                   return false;
                 }};
-    const End end = run_task(FrameType::job, body, watch);
+    const End end = has_process(hooks.stop) ? run_task(FrameType::job, body, watch) : End::killed;
     if (end == End::answered) {
       return run;
     }
@@ -328,6 +342,9 @@ std::uint64_t ChildRunner::send_sweep(const UnitTask& task) {
 }
 
 ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& told, bool at_once) {
+  if (!has_process(task.stop)) {
+    return End::killed;
+  }
   const std::uint64_t number = send_sweep(task);
   const std::size_t before = told;
   const auto rest = task.units.subspan(told);

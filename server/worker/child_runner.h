@@ -24,6 +24,8 @@ struct RunnerCounters {
   std::atomic<std::int64_t> out_of_memory = 0;
   std::atomic<std::int64_t> killed = 0;   ///< processes that ignored a stop request
   std::atomic<std::int64_t> crashed = 0;  ///< processes ended by a signal or an unknown status
+  /// Workers that wait because the system starts no process for them now (descriptors, processes, memory).
+  std::atomic<std::int64_t> without_process = 0;
 };
 
 struct ChildRunnerOptions {
@@ -54,6 +56,7 @@ class ChildRunner final : public Runner {
 
   void start();
   void replace();
+  [[nodiscard]] bool has_process(const std::stop_token& stop);
   void close_ends();
   /// Sends a task and receives its answer.
   [[nodiscard]] End run_task(FrameType type, std::string_view body, Watch& watch);

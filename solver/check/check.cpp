@@ -10,6 +10,7 @@ std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   const checks::Place root(PointerPath(), findings);
   const checks::Place place = root / "model";
   checks::Names names;
+  checks::check_texts(place, model);
   checks::check_nodes(place, model, names);
   checks::check_sections(place, model, names);
   checks::check_members(place, model, names);

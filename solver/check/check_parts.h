@@ -22,6 +22,7 @@ struct Names {
 };
 
 // For each function, `model` is the place "/model" and `names` is complete.
+void check_texts(const Place& model, const Model& data);
 void check_nodes(const Place& model, const Model& data, Names& names);
 void check_sections(const Place& model, const Model& data, Names& names);
 void check_members(const Place& model, const Model& data, Names& names);

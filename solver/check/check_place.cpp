@@ -124,8 +124,7 @@ bool require_count(const Place& place, std::size_t count, std::size_t max) {
   return count <= max;
 }
 
-/// Number of code points of a UTF-8 text.
-static std::size_t characters(std::string_view text) {
+std::size_t characters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }

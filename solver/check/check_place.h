@@ -40,6 +40,8 @@ class Place {
 [[nodiscard]] std::string text(double value);
 /// Id in quotes, shortened if very long.
 [[nodiscard]] std::string in_quotes(std::string_view id);
+/// Number of code points of a UTF-8 text.
+[[nodiscard]] std::size_t characters(std::string_view text);
 
 // Each function returns whether its rule holds, and reports a finding if not. NaN breaks every rule.
 bool require_finite(const Place& place, double value);

@@ -134,6 +134,23 @@ void check_nodes_are_reached(const Place& nodes, const Model& data, const Names&
 
 }  // namespace
 
+/// Checks texts that results and lists repeat.
+void check_texts(const Place& model, const Model& data) {
+  const auto require_short = [](const Place& place, const std::string& text, std::size_t most) {
+    if (characters(text) > most) {
+      place.report("out_of_range", "expected at most " + std::to_string(most) + " characters, got " +
+                                       std::to_string(characters(text)));
+    }
+  };
+  require_short(model / "title", data.title, kMaxTitleLength);
+  const Place units = model / "units";
+  require_count(units, data.units.size(), kMaxUnits);
+  for (std::size_t i = 0; i < std::min(data.units.size(), kMaxUnits); ++i) {
+    require_short(units, data.units[i].first, kMaxUnitLength);
+    require_short(units, data.units[i].second, kMaxUnitLength);
+  }
+}
+
 void check_nodes(const Place& model, const Model& data, Names& names) {
   const Place nodes = model / "nodes";
   require_count(nodes, data.nodes.size(), kMaxNodes);

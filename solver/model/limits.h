@@ -20,7 +20,10 @@ inline constexpr std::size_t kMaxCurvePoints =
 inline constexpr std::size_t kMaxLoadFactors =
     100'000;  ///< entries of `load_factors` and of `at_load_factors`
 inline constexpr std::size_t kMaxSensitivities = 10'000;
-inline constexpr std::size_t kMaxIdLength = 200;     ///< characters (code points) of an id
+inline constexpr std::size_t kMaxIdLength = 200;       ///< characters (code points) of an id
+inline constexpr std::size_t kMaxTitleLength = 1'000;  ///< characters of a title, which lists of jobs repeat
+inline constexpr std::size_t kMaxUnits = 100;          ///< units of a model
+inline constexpr std::size_t kMaxUnitLength = 100;   ///< characters of a unit, and of what it is the unit of
 inline constexpr std::size_t kMaxWorstMembers = 32;  ///< members of a model with a worst imperfection
 inline constexpr std::size_t kMaxPointsAlong =
     1'000;  ///< points of a table of a law, or of a number along a member

@@ -128,6 +128,16 @@ TEST(Sweep, OutcomesHoldTheOutputsOrSayWhyNot) {
   EXPECT_EQ(sweep.outcome(other).code, "no_such_output") << "a field that is not there is an error";
 }
 
+TEST(Sweep, OutputsOfAPointAreBounded) {
+  json document = sound_sweep();
+  document["outputs"] = {"/summary/message"};
+  const Sweep sweep = *read(document).sweep;
+  json result = {{"summary", {{"message", std::string(kMaxOutputBytes - 4, 'x')}}}};
+  EXPECT_EQ(sweep.outcome(result).code, "") << "brackets and quotes are the other four bytes";
+  result["summary"]["message"] = std::string(kMaxOutputBytes - 3, 'x');
+  EXPECT_EQ(sweep.outcome(result).code, "outputs_too_large");
+}
+
 TEST(Sweep, DocumentsWrittenOverOneAnotherAreThoseOfTheirPoints) {
   json swept = sound_sweep();
   swept["parameters"].push_back(

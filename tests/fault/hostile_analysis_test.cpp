@@ -176,7 +176,9 @@ class HostileAnalysis : public testing::Test {
     }
     const json status = json::parse(get(port_, job, {"Prefer: wait=20"}).body);
     const std::string code = status.contains("error") ? status["error"]["code"] : status["status"];
-    EXPECT_EQ(code, kind.code.empty() ? "successful" : kind.code) << kind.deed << ": " << status.dump();
+    const bool time_came_first = kind.deed == "states" && code == "time_limit";  // on a busy machine
+    EXPECT_TRUE(time_came_first || code == (kind.code.empty() ? "successful" : kind.code))
+        << kind.deed << ": " << status.dump();
     const std::lock_guard guard(mutex_);
     ++ended_[kind.deed + (kind.dismiss ? ", dismissed" : "") + ": " + code];
   }

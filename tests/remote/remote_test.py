@@ -268,6 +268,8 @@ class WithKeys(unittest.TestCase):
             self.assertIn("--key-file", err)
             status, out, err = run("submit", document, "--service", service.url, "--key-file", file)
             self.assertEqual(status, 0, err)
+            self.assertIn("others can read the key", err)
+            file.chmod(0o600)
             env = plain_environment(SNAPTHROUGH_SERVICE=service.url, SNAPTHROUGH_KEY_FILE=str(file))
             self.assertEqual(run("wait", out.strip(), env=env), (0, "successful\n", ""))
             self.assertNotIn(key, out + err)

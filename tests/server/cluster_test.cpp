@@ -222,12 +222,36 @@ TEST(SharedSweeps, ThoseThatOthersWorkOnLeaveRoom) {
     ASSERT_TRUE(add(number));
     scheduler.exhausted(*scheduler.next(0.1));
   }
-  EXPECT_FALSE(scheduler.has_room());
   EXPECT_FALSE(scheduler.has_units());
   scheduler.refresh();
-  EXPECT_TRUE(scheduler.has_room());
+  EXPECT_EQ(scheduler.count(), 0U);
   EXPECT_TRUE(add(100));
   EXPECT_EQ(scheduler.next(0.1)->sweep->id, id_number(100));
+}
+
+/// A sweep that is put aside has no turns, and goes on when its turn comes again; the units in work stay.
+TEST(SharedSweeps, OnesPutAsideWaitAndGoOn) {
+  SweepScheduler scheduler;
+  const std::string document = column_sweep(4);
+  const auto add = [&](int number) {
+    const auto sweep = std::make_shared<ActiveSweep>(id_number(number), *api::read_sweep(document).sweep,
+                                                     OpenSweep{document, "", true});
+    scheduler.add(sweep);
+    return sweep;
+  };
+  const std::shared_ptr<ActiveSweep> held = add(1);
+  add(2);
+  scheduler.give_turns_to({id_number(2)});
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(scheduler.next(0.1)->sweep->id, id_number(2));
+  }
+  scheduler.refresh();
+  EXPECT_TRUE(scheduler.has(id_number(1))) << "a worker has units of it";
+  scheduler.give_turns_to({id_number(1)});
+  EXPECT_EQ(scheduler.next(0.1)->sweep->id, id_number(1));
+  scheduler.give_turns_to({});
+  EXPECT_FALSE(scheduler.has_units());
+  EXPECT_FALSE(scheduler.next(0.1).has_value());
 }
 
 /// Who waits for the store half of the time asks it less often.

@@ -117,14 +117,37 @@ struct Bench {
   Gateway gateway{routes, environment, log, keys, metrics};
 };
 
+const std::string kJob = "/v1/jobs/00000000-0000-7000-8000-000000000001";
+
 TEST(Gateway, AStoreThatIsUnavailableIs503) {
   Bench<> bench(StatusCode::unavailable);
-  for (const auto& [method, path] : {std::pair("POST", "/v1/jobs"), std::pair("GET", "/v1/jobs"),
-                                     std::pair("GET", "/v1/jobs/x"), std::pair("GET", "/v1/jobs/x/result")}) {
+  for (const auto& [method, path] : {std::pair<const char*, std::string>("POST", "/v1/jobs"),
+                                     {"GET", "/v1/jobs"},
+                                     {"GET", kJob},
+                                     {"GET", kJob + "/result"}}) {
     const Response response = bench.serve(method, path);
     EXPECT_EQ(response.status, 503) << method << path;
     EXPECT_THAT(response.headers, testing::Contains(testing::Pair("Retry-After", "5")));
   }
+}
+
+/// Whatever bytes it has: the broken store is not asked.
+TEST(Gateway, WhatIsNoIdIsNotThere) {
+  Bench<> bench(StatusCode::io_error);
+  for (const std::string& id :
+       {std::string("x"), std::string("a\0b", 3), std::string("\xff"), std::string("%00")}) {
+    for (const char* list : {"/v1/jobs/", "/v1/sweeps/"}) {
+      const Response response = bench.serve("GET", list + id);
+      EXPECT_EQ(response.status, 404) << list << id;
+    }
+  }
+}
+
+TEST(Gateway, ADescriptionIsFoundAtItsUsualAddress) {
+  Bench<> bench(StatusCode::io_error);
+  const Response response = bench.serve("GET", "/openapi.json");
+  EXPECT_EQ(response.status, 308);
+  EXPECT_THAT(response.headers, testing::Contains(testing::Pair("Location", "/v1/openapi.json")));
 }
 
 TEST(Gateway, AStoreThatIsBrokenIs500WithoutParticulars) {
@@ -137,7 +160,7 @@ TEST(Gateway, AStoreThatIsBrokenIs500WithoutParticulars) {
 
 TEST(Gateway, AnExceptionIs500AndItsTextIsInTheLogOnly) {
   Bench<> bench(StatusCode::io_error);
-  const Response response = bench.serve("GET", "/v1/jobs/there/request");
+  const Response response = bench.serve("GET", kJob + "/request");
   EXPECT_EQ(response.status, 500);
   EXPECT_THAT(response.body, Not(HasSubstr("secret")));
   EXPECT_THAT(bench.log_text.str(), HasSubstr("secret"));

@@ -164,6 +164,31 @@ TEST_F(PartCommand, FilesThatDoNotBelongTogetherAreRefused) {
               HasSubstr("different sweep documents"));
 }
 
+/// Each would give a table that is no table.
+TEST_F(PartCommand, MergeRefusesRowsThatTheProgramDoesNotWrite) {
+  (void)compute("1/1", "rows");
+  const std::string text = contents("rows");
+  const std::size_t row = text.find("{\"point\":1,");
+  const std::size_t end = text.find('\n', row);
+  const std::string first = text.substr(row, end - row);
+  ASSERT_THAT(first, HasSubstr(",\"bifurcation\"]}"));
+  const std::string short_row = first.substr(0, first.find(",\"bifurcation\"")) + "]}";
+  const std::string longer_row = first.substr(0, first.size() - 2) + ",1]}";
+  const std::string other_member = first.substr(0, first.size() - 1) + ",\"more\":1}";
+  for (const auto& [changed, why] :
+       std::vector<std::pair<std::string, std::string>>{{first + "\r", "another end of the line"},
+                                                        {other_member, "more than these"},
+                                                        {short_row, "1 outputs instead of 2"},
+                                                        {longer_row, "3 outputs instead of 2"}}) {
+    std::ofstream(file("changed"), std::ios::binary | std::ios::trunc)
+        << text.substr(0, row) + changed + text.substr(end);
+    const Outcome outcome = run_with({"merge", file("changed")});
+    EXPECT_EQ(outcome.exit_status, kOther) << changed;
+    EXPECT_EQ(outcome.out, "") << changed;
+    EXPECT_THAT(outcome.err, HasSubstr(why)) << changed;
+  }
+}
+
 TEST_F(PartCommand, RowsOfAnotherVersionAreNotMixed) {
   (void)compute("1/1", "rows");
   std::string text = contents("rows");

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
@@ -47,6 +48,41 @@ class RunnerTest : public testing::Test {
   }
   RunnerCounters counters_;
 };
+
+/// The system starts no process for the moment: the job waits, and it is nobody's crash.
+TEST_F(RunnerTest, AJobWaitsForAProcessThatCannotBeStartedYet) {
+  const TempDir folder;
+  ChildRunnerOptions missing = options();
+  missing.executable = folder.file("snapthrough");
+  ChildRunner runner(missing, counters_);
+  JobRun run;
+  std::jthread job([&] { run = runner.run_job(column_request(), {}); });
+  while (counters_.without_process == 0) {
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  std::filesystem::create_symlink(SNAPTHROUGH_EXECUTABLE, missing.executable);
+  job.join();
+  EXPECT_TRUE(run.result.has_value());
+  EXPECT_EQ(counters_.crashed, 0);
+  EXPECT_EQ(counters_.without_process, 0);
+}
+
+TEST_F(RunnerTest, AJobThatWaitsForAProcessCanBeStopped) {
+  const TempDir folder;
+  ChildRunnerOptions missing = options();
+  missing.executable = folder.file("snapthrough");
+  ChildRunner runner(missing, counters_);
+  std::stop_source stop;
+  JobRun run;
+  std::jthread job([&] { run = runner.run_job(column_request(), {.stop = stop.get_token()}); });
+  while (counters_.without_process == 0) {
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  stop.request_stop();
+  job.join();
+  ASSERT_TRUE(run.failure.has_value());
+  EXPECT_EQ(run.failure->code, kCancelled);
+}
 
 TEST_F(RunnerTest, AJobIsSolvedAsInThisProcess) {
   ChildRunner runner(options(), counters_);

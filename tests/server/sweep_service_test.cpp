@@ -55,6 +55,16 @@ class SweepService : public ServiceTest {
       return (*solver)(model, analysis, hooks);
     };
   }
+  /// Starts with the owners ann, whose key is "alice", and bob.
+  void start_keyed(SolveFunction solver) {
+    ServiceConfig keyed = config();
+    // SHA-256 of "alice" and "bob", from sha256sum.
+    keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
+                  {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
+    service_ =
+        std::make_unique<Service>(keyed, Environment::system(), local_runners(std::move(solver)), log_);
+    ASSERT_TRUE(service_->start().ok());
+  }
   std::string submit_sweep(const std::string& document, const Headers& more = {}) {
     Headers headers{"Content-Type: application/json"};
     headers.insert(headers.end(), more.begin(), more.end());
@@ -458,13 +468,29 @@ TEST_F(SweepService, LargeTablesAreAskedForInParts) {
   EXPECT_EQ(table(sweep, "?first=10&count=10")["rows"].size(), 5U);
 }
 
+/// One owner's sweeps have all places, and points for minutes.
+TEST_F(SweepService, AnotherOwnersSweepIsNotKeptWaiting) {
+  start_keyed([](const Model&, const Analysis&, const Hooks&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    Result result;
+    result.summary.termination = "steps";
+    return result;
+  });
+  std::vector<std::string> long_ones;
+  for (int i = 0; i < 12; ++i) {
+    long_ones.push_back(
+        submit_sweep(column_sweep(20'000, std::to_string(i)), {"Authorization: Bearer alice"}));
+  }
+  const std::string other = submit_sweep(column_sweep(6), {"Authorization: Bearer bob"});
+  const Reply reply = get(port(), other, {"Prefer: wait=60", "Authorization: Bearer bob"});
+  EXPECT_EQ(json::parse(reply.body)["status"], "successful") << reply.body;
+  for (const std::string& sweep : long_ones) {
+    EXPECT_NE(json::parse(get(port(), sweep, {"Authorization: Bearer alice"}).body)["status"], "successful");
+  }
+}
+
 TEST_F(SweepService, AStrangersSweepIsNotThere) {
-  ServiceConfig keyed = config();
-  // SHA-256 of "alice" and "bob", from sha256sum.
-  keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
-                {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
-  service_ = std::make_unique<Service>(keyed, Environment::system(), local_runners(counting()), log_);
-  ASSERT_TRUE(service_->start().ok());
+  start_keyed(counting());
   const std::string sweep = submit_sweep(column_sweep(5), {"Authorization: Bearer alice"});
   for (const std::string& target :
        {sweep, sweep + "/table", sweep + "/request", sweep + "/events", sweep + "/points/0/request"}) {

@@ -96,7 +96,7 @@ class Tables(unittest.TestCase):
         for address, status in [(job + "/table.csv?format=json", 400), (job + "/table.csv?table=buckling", 400),
                                 (self.service.address + "/v1/jobs/x/table.csv", 404),
                                 (self.service.address + "/v1/sweeps/x/table.csv", 404),
-                                (self.service.address + "/v1/sweeps/x/table.csv?format=csv", 400)]:
+                                (self.service.address + f"/v1/sweeps/{job[-36:]}/table.csv?format=csv", 400)]:
             self.assertEqual(send(address)[0], status, address)
 
     def test_a_key_comes_in_the_header(self):
