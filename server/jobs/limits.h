@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -40,7 +42,20 @@ struct StoreHealth {
   std::atomic<bool> writable = true;   ///< outcome of the latest write that tells
   std::atomic<bool> has_space = true;  ///< the disk has room for new jobs
   std::atomic<bool> draining = false;  ///< the service has begun to stop
+  /// Bytes of the disk that new documents may still take until it is looked at again.
+  std::atomic<std::int64_t> room = std::numeric_limits<std::int64_t>::max();
 
+  /// @brief Takes room for a document; `unavailable` when there is none. Many documents can arrive between
+  /// two looks at the disk.
+  [[nodiscard]] Status take_room(std::size_t document) {
+    // the write-ahead log has it before the file has it, and a result comes, too
+    const std::int64_t bytes = 3 * static_cast<std::int64_t>(document);
+    if (room.fetch_sub(bytes) >= bytes) {
+      return {};
+    }
+    room += bytes;
+    return {StatusCode::unavailable, "the disk has no room for this document at the moment"};
+  }
   /// Ok when the service takes new work; else `stopping` or `unavailable`.
   [[nodiscard]] Status takes_work() const {
     if (draining) {

@@ -5,6 +5,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace snapthrough::server {
@@ -24,6 +25,11 @@ std::uint64_t DiskGuard::free_bytes() const {
     return 0;
   }
   return static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
+}
+
+std::uint64_t DiskGuard::room(std::uint64_t reusable) const {
+  const std::uint64_t free = free_bytes();
+  return free + reusable < least_free_ ? 0 : std::min(free, free + reusable - least_free_);
 }
 
 bool DiskGuard::check(bool writable, std::uint64_t reusable) {

@@ -23,6 +23,8 @@ class DiskGuard {
   /// @return whether there is room for new jobs
   bool check(bool writable, std::uint64_t reusable);
 
+  /// Returns the bytes that new documents may take. @param reusable as for check()
+  [[nodiscard]] std::uint64_t room(std::uint64_t reusable) const;
   /// Returns the number of bytes that the service can use.
   [[nodiscard]] std::uint64_t free_bytes() const;
 

@@ -101,7 +101,9 @@ void Upkeep::look_at_disk(Time now) {
   health.has_space = probe.ok();
   if (guard_) {
     const StatusOr<std::uint64_t> reusable = context_.store.give_back_space();
-    health.has_space = guard_->check(probe.ok(), reusable.ok() ? *reusable : 0);
+    const std::uint64_t unused = reusable.ok() ? *reusable : 0;
+    health.has_space = guard_->check(probe.ok(), unused);
+    health.room = static_cast<std::int64_t>(guard_->room(unused));
   }
   if (const bool after = health.writable && health.has_space; after != before) {
     context_.log.write(after ? LogLevel::info : LogLevel::error, "disk",

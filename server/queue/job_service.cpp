@@ -106,6 +106,9 @@ StatusOr<Submission> JobService::submit(const Order& order) {
   if (waiting_.value() >= limits_.queue) {
     return known_or_full(store_, order);
   }
+  if (Status status = health_.take_room(order.document.size()); !status.ok()) {
+    return status;
+  }
   return store_new(order, std::move(job));
 }
 

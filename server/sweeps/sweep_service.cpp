@@ -30,6 +30,9 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (*waiting >= world_.limits.sweeps) {
     return known_or_full(world_.store, order);
   }
+  if (Status status = world_.health.take_room(order.document.size()); !status.ok()) {
+    return status;
+  }
   NewSweep sweep{new_id(world_.environment), read.sweep->title(),
                  std::string(envelope.text), static_cast<std::int64_t>(read.sweep->size()),
                  world_.environment.now(),   order.owner};

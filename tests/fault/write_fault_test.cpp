@@ -281,6 +281,43 @@ TEST_F(FullDisk, NoFalseCreatedAtAnyStepAndItRecovers) {
   record_figure("jobs_refused", refused);
 }
 
+/// Documents come faster than the disk is looked at, until they are refused; all of them can be removed, and
+/// the room is there again.
+TEST_F(FullDisk, IsReadyAgainAfterRemovalsHoweverOftenItWasFull) {
+  if (!mounted_) {
+    GTEST_SKIP() << "mounting a tmpfs needs root";
+  }
+  start_small();
+  std::string large = column_request();
+  large.append(95'000 - large.size(), ' ');
+  const auto submitted = [&] {
+    const Reply reply =
+        post(port(), "/v1/jobs", large,
+             {"Content-Type: application/json", "Prefer: respond-async", "Cache-Control: no-cache"});
+    EXPECT_TRUE(reply.status == 201 || reply.status == 503) << reply.body;
+    return reply.header("Location");
+  };
+  for (int round = 0; round < 4 && !HasFailure(); ++round) {
+    std::vector<std::string> jobs;
+    for (int i = 0; i < 200 && jobs.empty(); ++i) {  // the disk is looked at once a second
+      if (std::string job = submitted(); !job.empty()) {
+        jobs.push_back(std::move(job));
+      } else {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
+    }
+    ASSERT_FALSE(jobs.empty()) << "round " << round << ": the space did not come back";
+    for (std::string job = submitted(); !job.empty() && jobs.size() < 1000; job = submitted()) {
+      jobs.push_back(std::move(job));
+    }
+    EXPECT_LT(jobs.size(), 1000U) << "the disk has 24 MB";
+    for (const std::string& job : jobs) {
+      EXPECT_EQ(call(port(), "DELETE", job, "", {}).status, 204) << "round " << round;
+    }
+  }
+  EXPECT_TRUE(wait_ready(200));
+}
+
 TEST_F(FullDisk, ReadyzSaysSoWhileItLasts) {
   if (!mounted_) {
     GTEST_SKIP() << "mounting a tmpfs needs root";

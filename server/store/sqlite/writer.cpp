@@ -23,6 +23,16 @@ void roll_back(Connection& connection) {
   }
 }
 
+/// Moves what the write-ahead log holds into the file, so that the log is written from its begin again: on a
+/// full disk it cannot grow, not even for a deletion.
+void empty_log(Connection& connection) {
+  try {
+    connection.execute("PRAGMA wal_checkpoint(PASSIVE)");
+  } catch (const Error&) {
+    // The file cannot grow either; the next write that fails tries again.
+  }
+}
+
 }  // namespace
 
 Status to_status(const Error& error) {
@@ -107,6 +117,9 @@ void Writer::commit_batch(std::deque<Item*>& batch) {
     connection_->execute(undo ? "ROLLBACK" : "COMMIT");
   } catch (const Error& error) {
     roll_back(*connection_);
+    if ((error.code() & 0xff) == SQLITE_FULL) {
+      empty_log(*connection_);
+    }
     for (Item* item : batch) {
       item->status = to_status(error);
     }
