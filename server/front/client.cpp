@@ -18,7 +18,7 @@ constexpr std::size_t kMostWaiting = 256 * 1024;
 
 }  // namespace
 
-bool Outbox::put(std::string piece, bool last) {
+bool Outbox::put(const std::string& piece, bool last) {
   const std::lock_guard guard(mutex_);
   if (closed_ || waiting_.size() + piece.size() > kMostWaiting) {
     closed_ = true;

@@ -33,7 +33,7 @@ enum class Phase {
 class Outbox {
  public:
   /// Adds a piece. Returns false when the client is gone or so slow that too much waits.
-  bool put(std::string piece, bool last);
+  bool put(const std::string& piece, bool last);
   /// Returns the waiting pieces; sets `last` when no piece follows.
   std::string take(bool& last);
   /// Rejects all further pieces.

@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <ctime>
 #include <deque>
 #include <mutex>
 #include <system_error>
@@ -50,11 +51,19 @@ constexpr int kPartOfTurns = 4;
 constexpr int kPartOfStreams = 4;
 /// Work of which the client has gone, or the service is about to end, goes on for so long.
 constexpr std::chrono::milliseconds kAbandoned{1'000};
+/// Work goes on for this multiple of its processor time at most: a busy machine gives it less.
+constexpr int kBusy = 6;
 constexpr std::string_view kTooMany =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Type: application/problem+json\r\n"
     "Content-Length: 153\r\nConnection: close\r\n\r\n"
     R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503,)"
     R"("detail":"As many connections are open as are taken."})";
+
+std::chrono::nanoseconds processor_time() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
 
 /// An event of a connection; its deferred response may have been dropped in the meantime.
 struct Wake {
@@ -97,7 +106,8 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   bool answer(const ClientPointer& client, Received received);
   bool in_turn(const ClientPointer& client, std::function<Response()> work, std::size_t bytes);
   bool work_on(const ClientPointer& client);
-  [[nodiscard]] bool is_over(const Client& client, Clock::time_point start) const;
+  [[nodiscard]] bool is_over(const Client& client, Clock::time_point start,
+                             std::chrono::nanoseconds used) const;
   [[nodiscard]] Turns& turns_for(const Client& client) {
     return client.work_bytes > LargeDocument::kSmall ? large_turns_ : turns_;
   }
@@ -428,7 +438,9 @@ bool Listener::Server::in_turn(const ClientPointer& client, std::function<Respon
 /// Computes the response in the client's turn. Returns the value of deliver().
 bool Listener::Server::work_on(const ClientPointer& client) {
   const Clock::time_point start = Clock::now();
-  const WorkLimit limit([this, &client, start] { return is_over(*client, start); });
+  const WorkLimit limit([this, &client, start, before = processor_time()] {
+    return is_over(*client, start, processor_time() - before);
+  });
   Response response = std::exchange(client->work, nullptr)();
   pass_turn(turns_for(*client), client->party);
   client->work_bytes = 0;
@@ -437,9 +449,12 @@ bool Listener::Server::work_on(const ClientPointer& client) {
 }
 
 /// Whether work for a client has to end: it takes too long, or nobody waits for it any more.
-bool Listener::Server::is_over(const Client& client, Clock::time_point start) const {
+/// @param used processor time of the work
+bool Listener::Server::is_over(const Client& client, Clock::time_point start,
+                               std::chrono::nanoseconds used) const {
   const Clock::time_point now = Clock::now();
-  return now > start + options_.times.reading || (stopping_ && now > stopped_at_.load() + kAbandoned) ||
+  return used > options_.times.reading || now > start + kBusy * options_.times.reading ||
+         (stopping_ && now > stopped_at_.load() + kAbandoned) ||
          (now > start + kAbandoned && client.is_gone());
 }
 
@@ -525,14 +540,14 @@ bool Listener::Server::begin_stream(const ClientPointer& client, const Response&
   client->close_after = true;
   client->output += to_bytes(response, false, false);
   client->outbox = std::make_shared<Outbox>();
-  client->source = response.stream->open(
-      [weak = weak_from_this(), id = client->id, outbox = client->outbox](std::string piece, bool last) {
-        const bool taken = outbox->put(std::move(piece), last);
-        if (const auto server = weak.lock()) {
-          server->wake({id});
-        }
-        return taken;
-      });
+  client->source = response.stream->open([weak = weak_from_this(), id = client->id, outbox = client->outbox](
+                                             const std::string& piece, bool last) {
+    const bool taken = outbox->put(piece, last);
+    if (const auto server = weak.lock()) {
+      server->wake({id});
+    }
+    return taken;
+  });
   pump(client);
   return false;
 }

@@ -19,7 +19,7 @@ struct ClientTimes {
   std::chrono::milliseconds body{60'000};     ///< to receive the body
   std::chrono::milliseconds send{30'000};     ///< for a client to take some bytes of a response
   std::chrono::milliseconds ping{15'000};     ///< between comments on a stream without events
-  std::chrono::milliseconds reading{10'000};  ///< to read and check what was sent, and to answer
+  std::chrono::milliseconds reading{10'000};  ///< processor time to read and check what was sent
   std::chrono::milliseconds drain{2'000};     ///< for requests and responses under way when the service stops
 };
 

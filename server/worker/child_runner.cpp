@@ -82,7 +82,7 @@ ChildRunner::~ChildRunner() {
   }
 }
 
-void ChildRunner::close_ends() {
+void ChildRunner::close_ends() const {
   ::close(socket_);
   ::close(control_);
 }
@@ -188,7 +188,7 @@ ChildRunner::End ChildRunner::end_of_process(bool killed) {
 }
 
 /// Sends a frame; kills a process that does not read it. @return whether the process can still answer
-bool ChildRunner::send(FrameType type, std::string_view body) {
+bool ChildRunner::send(FrameType type, std::string_view body) const {
   if (write_frame(socket_, type, body)) {
     return true;
   }
@@ -196,7 +196,7 @@ bool ChildRunner::send(FrameType type, std::string_view body) {
   return false;
 }
 
-bool ChildRunner::control(FrameType type) {
+bool ChildRunner::control(FrameType type) const {
   std::string body;
   RecordWriter(body).put(task_);
   return write_frame(control_, type, body);

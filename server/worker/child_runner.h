@@ -57,11 +57,11 @@ class ChildRunner final : public Runner {
   void start();
   void replace();
   [[nodiscard]] bool has_process(const std::stop_token& stop);
-  void close_ends();
+  void close_ends() const;
   /// Sends a task and receives its answer.
   [[nodiscard]] End run_task(FrameType type, std::string_view body, Watch& watch);
-  [[nodiscard]] bool send(FrameType type, std::string_view body);
-  [[nodiscard]] bool control(FrameType type);
+  [[nodiscard]] bool send(FrameType type, std::string_view body) const;
+  [[nodiscard]] bool control(FrameType type) const;
   [[nodiscard]] std::uint64_t send_sweep(const UnitTask& task);
   [[nodiscard]] End attend(Watch& watch);
   [[nodiscard]] std::optional<bool> take_frame(Watch& watch);
