@@ -97,6 +97,18 @@ TEST(CsvField, TextsThatLookLikeFormulasAreMarked) {
   EXPECT_EQ(text, "'=1+1;'+a;'-a;'@a;'\ta;a=b;;\"'=\"\"x\"\", y\";-1.5");
 }
 
+/// White space and signs in full width do not hide a formula.
+TEST(CsvField, HiddenFormulasAreMarked) {
+  for (const std::string name : {"\n=1", " =1", "\v@a", "\uFF1D1", "\uFF0Ba", "\uFF0Da", " \uFF20a"}) {
+    std::string text;
+    append_csv_text(text, name);
+    EXPECT_THAT(text, testing::AnyOf(testing::StartsWith("'"), testing::StartsWith("\"'"))) << name;
+  }
+  std::string text;
+  append_csv_text(text, "a\n=1");
+  EXPECT_EQ(text, "\"a\n=1\"") << "a cell is one text";
+}
+
 TEST(ResultTable, StatesAreRowsAlongTheMembers) {
   const json result = json::parse(R"({"states": [{"branch": 0, "load_factor": 2, "members": {
     "m": {"s": [0, 1], "x": [0, 0.5], "y": [0, 0.25], "rotation": [0, -1], "axial_force": [1, 2],
