@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <unordered_map>
 #include <utility>
 
+#include "solver/mesh/given_elements.h"
 #include "solver/mesh/mesh.h"
 #include "solver/support/rods.h"
 
@@ -30,14 +29,7 @@ MeshSize mesh_size(const Model& model, const Discretization& asked) {
     const Mesh mesh = make_mesh(model, asked, make_axes(model));
     return {static_cast<int>(mesh.elements.size()), mesh.order};
   }
-  const std::unordered_map<std::string, int> of_members(asked.member_elements.begin(),
-                                                        asked.member_elements.end());
-  MeshSize size{0, asked.order};
-  for (const Member& member : model.members) {
-    const auto given = of_members.find(member.id);
-    size.elements += given == of_members.end() ? asked.elements : given->second;
-  }
-  return size;
+  return {static_cast<int>(given_elements(model, asked)), asked.order};
 }
 
 /// Returns the number of free displacement unknowns of the request's mesh, before any refinement.

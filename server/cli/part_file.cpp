@@ -111,11 +111,9 @@ std::optional<std::pair<std::uint64_t, api::PointOutcome>> PartReader::next() {
   // The original text of the outputs keeps their digits in a merged table.
   const std::string begin = row_begin(point) + ",\"outputs\":";
   if (!line->starts_with(begin) || !line->ends_with('}') || row.size() != 2 || !row["outputs"].is_array()) {
-    refuse(
-        "has a row that is not as `sweep --out` writes it (neither outputs nor a failure, more than these, "
-        "or "
-        "another end of the line), of point " +
-        std::to_string(point));
+    refuse("has a row of point " + std::to_string(point) +
+           " that is not as `sweep --out` writes it: neither outputs nor a failure, more than these, or "
+           "another end of the line");
   }
   if (outputs_ && row["outputs"].size() != *outputs_) {
     refuse("has a row with " + std::to_string(row["outputs"].size()) + " outputs instead of " +

@@ -55,7 +55,7 @@ class PartReader {
   [[nodiscard]] const SweepPart& part() const { return part_; }
   [[nodiscard]] const nlohmann::json& document() const { return document_; }
 
-  /// Refuses rows with another number of outputs from now on.
+  /// Sets the number of outputs that a row must have: next() refuses others from then on.
   void require_outputs(std::size_t count) { outputs_ = count; }
   /// Returns the next row; nullopt after the last complete row.
   [[nodiscard]] std::optional<std::pair<std::uint64_t, api::PointOutcome>> next();

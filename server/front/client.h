@@ -76,7 +76,7 @@ struct Client {
   /// Reads and discards bytes. Returns `more` if any were read, `ended` at the end of the connection.
   [[nodiscard]] Read discard() const;
   void close();
-  /// Returns whether the client has closed the connection. May be called while another thread has the mutex.
+  /// Returns whether the client has closed its side of the connection.
   [[nodiscard]] bool is_gone() const;
   /// Returns the approximate memory of the client in bytes.
   [[nodiscard]] std::size_t held_bytes() const;
@@ -85,7 +85,7 @@ struct Client {
   int socket;
   const std::uint64_t id;
   const std::string remote;
-  std::string party;  ///< who asks, see Gateway::party_of(); the address until a head tells more
+  std::string party;  ///< who asks, see Caller::party; the address until a head tells more
   Phase phase = Phase::idle;
   Clock::time_point deadline;
   RequestReader reader;

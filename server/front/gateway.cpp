@@ -185,34 +185,32 @@ std::optional<Response> Gateway::without_resource(const Request& request, bool k
 
 bool Gateway::answers_at_once(const Request& request) { return is_probe(request.path); }
 
-std::string Gateway::party_of(const Request& request) const {
-  const std::optional<std::string> owner = keys_.open() ? std::nullopt : keys_.owner(request);
-  return owner ? "owner " + *owner : "address " + request.remote;
+Caller Gateway::caller_of(const Request& request) const {
+  Caller caller{keys_.owner(request), "address " + request.remote};
+  if (caller.owner && !keys_.open()) {
+    caller.party = "owner " + *caller.owner;
+  }
+  return caller;
 }
 
-std::optional<Response> Gateway::refused_by_head(Request request) {
+std::optional<Response> Gateway::refused_by_head(Request& request, const Caller& caller) {
   const double start = environment_.monotonic_seconds();
   request.id = request_id(request, environment_);
-  const std::optional<std::string> owner = keys_.owner(request);
-  request.owner = owner.value_or("");
-  std::optional<Response> refusal = without_resource(request, owner.has_value());
+  request.owner = caller.owner.value_or("");
+  std::optional<Response> refusal = without_resource(request, caller.owner.has_value());
   if (refusal) {
     complete(request, *refusal, start);
   }
   return refusal;
 }
 
-Response Gateway::serve(Request request) {
+Response Gateway::serve(Request request, const Caller& caller) {
   const double start = environment_.monotonic_seconds();
-  request.id = request_id(request, environment_);
   request.body_bytes = request.body.size();
-  const std::optional<std::string> owner = keys_.owner(request);
-  request.owner = owner.value_or("");
-  const auto kept = std::make_shared<Request>(std::move(request));
-  if (std::optional<Response> response = without_resource(*kept, owner.has_value())) {
-    complete(*kept, *response, start);
-    return *std::move(response);
+  if (std::optional<Response> refusal = refused_by_head(request, caller)) {
+    return *std::move(refusal);
   }
+  const auto kept = std::make_shared<Request>(std::move(request));
   return finish(kept, guarded(*kept, [&] { return routes_.respond(*kept); }), start);
 }
 

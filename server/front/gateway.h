@@ -29,6 +29,14 @@ struct RequestMetrics {
 /// Answered requests: all, or only those for the state of the process (/livez, /readyz, /metrics).
 enum class Answers { all, state };
 
+/// Who asks.
+struct Caller {
+  std::optional<std::string>
+      owner;  ///< whose key the request has; empty: no known key; "": the service asks for none
+  /// The owner, or the address where there is no known key: what clients share is bounded for each party.
+  std::string party;
+};
+
 /// @brief Serves requests through the routes. Thread-safe; the constructor's arguments must outlive it.
 class Gateway {
  public:
@@ -44,14 +52,18 @@ class Gateway {
 
   /// Answers a request. Never throws: an exception of a resource is logged and becomes status 500 without
   /// details. A deferred response is returned deferred; its `resume` returns a complete, logged response.
-  [[nodiscard]] Response serve(Request request);
+  [[nodiscard]] Response serve(Request request, const Caller& caller);
+  [[nodiscard]] Response serve(Request request) {
+    const Caller caller = caller_of(request);
+    return serve(std::move(request), caller);
+  }
   /// Returns whether serve() answers a request from memory within microseconds: /livez and /readyz, which
   /// health checks use.
   [[nodiscard]] static bool answers_at_once(const Request& request);
-  /// Returns who asks: an owner, or an address without a known key. What clients share is bounded for each.
-  [[nodiscard]] std::string party_of(const Request& request) const;
-  /// Returns the refusal of a request by its head, before its body arrives; nullopt when its body is wanted.
-  [[nodiscard]] std::optional<Response> refused_by_head(Request request);
+  [[nodiscard]] Caller caller_of(const Request& request) const;
+  /// Returns the refusal of a request by its head, whether or not its body has arrived; nullopt when its body
+  /// is wanted. Sets the request's id and owner.
+  [[nodiscard]] std::optional<Response> refused_by_head(Request& request, const Caller& caller);
   /// Returns the response to a request that was refused while its bytes were read; `head` has what was read.
   [[nodiscard]] Response refuse(const Head& head, const std::string& remote);
 

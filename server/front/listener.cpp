@@ -41,7 +41,7 @@ constexpr std::chrono::milliseconds kSweep{100};
 constexpr std::chrono::milliseconds kLinger{500};
 /// Threads in addition to those that compute responses, so that immediate answers do not wait for them.
 constexpr int kAttending = 2;
-/// The thread of the turn for large bodies.
+/// Number of threads for the one turn of large bodies, in addition to the others.
 constexpr int kForLarge = 1;
 /// Responses below this size in bytes are always sent.
 constexpr std::size_t kSmallResponse = 64 * 1024;
@@ -49,9 +49,11 @@ constexpr std::size_t kSmallResponse = 64 * 1024;
 constexpr std::size_t kPartOfMemory = 2;
 constexpr int kPartOfTurns = 4;
 constexpr int kPartOfStreams = 4;
-/// Work of which the client has gone, or the service is about to end, goes on for so long.
+/// Time after which reading ends when its client has gone, counted from its begin, or when the service is
+/// about to end, counted from the stop.
 constexpr std::chrono::milliseconds kAbandoned{1'000};
-/// Work goes on for this multiple of its processor time at most: a busy machine gives it less.
+/// Longest time that reading may take, over the bound of its processor time (ClientTimes::reading): a busy
+/// machine gives a thread a part of the time only.
 constexpr int kBusy = 6;
 constexpr std::string_view kTooMany =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Type: application/problem+json\r\n"
@@ -385,9 +387,10 @@ bool Listener::Server::note_incomplete(Client& client, const Received& received)
 std::optional<Response> Listener::Server::judge_head(Client& client, const Head& head) {
   Request request = request_of(head);
   request.remote = client.remote;
-  name_party(client, gateway_.party_of(request));
+  const Caller caller = gateway_.caller_of(request);
+  name_party(client, caller.party);
   client.head_only = request.method == "HEAD";
-  if (std::optional<Response> refusal = gateway_.refused_by_head(std::move(request))) {
+  if (std::optional<Response> refusal = gateway_.refused_by_head(request, caller)) {
     client.close_after = true;
     client.linger_after = true;
     client.reader.release();
@@ -412,11 +415,13 @@ bool Listener::Server::answer(const ClientPointer& client, Received received) {
   if (Gateway::answers_at_once(request)) {
     return deliver(client, gateway_.serve(std::move(request)));
   }
-  name_party(*client, gateway_.party_of(request));
+  Caller caller = gateway_.caller_of(request);
+  name_party(*client, caller.party);
   const std::size_t size = request.body.size();
   const auto kept = std::make_shared<Request>(std::move(request));
   return in_turn(
-      client, [this, kept] { return gateway_.serve(std::move(*kept)); }, size);
+      client, [this, kept, caller = std::move(caller)] { return gateway_.serve(std::move(*kept), caller); },
+      size);
 }
 
 /// Computes a response, at once or in the client's turn. Returns whether the client can send the next one.

@@ -126,11 +126,6 @@ void read_member(const std::string& name, const json& value, std::string_view me
 
 }  // namespace
 
-std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 Envelope open_envelope(std::string_view text, std::string_view member, const JobLimits& limits) {
   Envelope envelope;
   api::ParsedText parsed = api::parse_json(text, {.keys = limits.json_keys});

@@ -12,6 +12,7 @@
 #include "server/jobs/job.h"
 #include "server/jobs/limits.h"
 #include "solver/check/check.h"
+#include "solver/check/check_place.h"
 
 namespace snapthrough::server {
 
@@ -41,7 +42,6 @@ struct Envelope {
 /// Findings of the envelope and of the document, each with its pointer in what was handed in.
 [[nodiscard]] std::vector<Finding> in_envelope(const Envelope& envelope, std::vector<Finding> findings);
 
-/// Number of code points of a UTF-8 text.
-[[nodiscard]] std::size_t characters(std::string_view text);
+using checks::characters;
 
 }  // namespace snapthrough::server

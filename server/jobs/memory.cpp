@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "solver/mesh/given_elements.h"
+
 namespace snapthrough::server {
 namespace {
 
@@ -37,12 +39,7 @@ std::int64_t least_memory(const Model& model, const Analysis& analysis) {
   if (!mesh.fixed_mesh) {
     return 0;
   }
-  std::int64_t elements = 0;
-  for (const auto& [member, count] : mesh.member_elements) {
-    elements += count;
-  }
-  const auto others = static_cast<std::int64_t>(model.members.size() - mesh.member_elements.size());
-  elements += others * mesh.elements;
+  const std::int64_t elements = given_elements(model, mesh);
   // An element of order p adds p nodes with three unknowns each.
   const std::int64_t search = analysis.type == AnalysisType::buckling ? kLeastBytesOfSearch : 0;
   return 3 * elements * mesh.order * (kLeastBytesByUnknown + search);

@@ -36,13 +36,6 @@ bool names_nothing(std::string_view pattern, std::string_view id) {
   return (pattern.starts_with("/v1/jobs/{id}") || pattern.starts_with("/v1/sweeps/{id}")) && !is_id(id);
 }
 
-Response missing(const Request& request, std::string_view pattern) {
-  return pattern.starts_with("/v1/jobs/")
-             ? simple_problem(request, 404, "no-such-job", "No such job", "There is no job with this id.")
-             : simple_problem(request, 404, "no-such-sweep", "No such sweep",
-                              "There is no sweep with this id.");
-}
-
 }  // namespace
 
 Response json_response(int status, std::string body) {
@@ -94,6 +87,16 @@ bool is_json(std::string_view content_type) {
 Response job_missing(const Request& request, const std::string& id) {
   return simple_problem(request, 404, "no-such-job", "No such job",
                         "There is no job with the id " + id + ".");
+}
+
+Response sweep_missing(const Request& request, const std::string& id) {
+  return simple_problem(request, 404, "no-such-sweep", "No such sweep",
+                        "There is no sweep with the id " + id + ".");
+}
+
+/// Answers for an id that names_nothing().
+static Response missing(const Request& request, std::string_view pattern, const std::string& id) {
+  return pattern.starts_with("/v1/jobs/") ? job_missing(request, id) : sweep_missing(request, id);
 }
 
 struct Routes::Route {
@@ -150,7 +153,7 @@ Response Routes::respond(const Request& request) {
     if (method != route.method || !matches(route.pattern, request.path, found)) {
       continue;
     }
-    Response response = names_nothing(route.pattern, found.id) ? missing(request, route.pattern)
+    Response response = names_nothing(route.pattern, found.id) ? missing(request, route.pattern, found.id)
                         : route.handler                        ? route.handler(*this, request, found.id)
                                         : route.point_handler(*this, request, found.id, found.point);
     response.route = route.pattern;

@@ -135,6 +135,7 @@ class Routes {
                                       std::string detail);
 [[nodiscard]] Response store_trouble(const Request& request, const Status& status);
 [[nodiscard]] Response job_missing(const Request& request, const std::string& id);
+[[nodiscard]] Response sweep_missing(const Request& request, const std::string& id);
 /// Returns whether a Content-Type is JSON.
 [[nodiscard]] bool is_json(std::string_view content_type);
 

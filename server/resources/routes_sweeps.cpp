@@ -13,11 +13,6 @@
 namespace snapthrough::server::http {
 namespace {
 
-Response sweep_missing(const Request& request, const std::string& id) {
-  return simple_problem(request, 404, "no-such-sweep", "No such sweep",
-                        "There is no sweep with the id " + id + ".");
-}
-
 /// Returns the name of a state, for messages.
 std::string name_of(JobState state) { return std::string(to_string(state)); }
 

@@ -66,10 +66,9 @@ HeldLoads held_loads(const Model& model, const Analysis& analysis, const Unilate
 
 namespace {
 
-/// Decides on the load factors beyond the capacity of supports. Supports with a capacity are exhausted at a
-/// lower load than that at which one-sided supports lose their hold, so that the capacity is what is
-/// reported. With small displacements these load factors are refused; with large ones the path ends at the
-/// capacity, before them.
+/// Refuses asked load factors beyond the limit load of supports with a capacity, if displacements are small;
+/// if they are large, the path ends at the limit load. That is below the load at which one-sided supports
+/// lose their hold, so it alone is reported.
 void refuse_rows_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
                                  HeldLoads& held, Result& result) {
   const bool is_linear = analysis.geometry == Geometry::linear;

@@ -19,7 +19,7 @@ namespace snapthrough {
 /// A state stays as it is, with the warning `state_accuracy`, where a finer mesh has none at its load factor
 /// with as many negative eigenvalues, as close to a limit point, or where its estimate still exceeds the
 /// accuracy.
-/// @param structure mesh on which `states` are given
+/// @param structure structure on the mesh of the unknowns in `states`
 /// @param states StaticState::row is the index into Result::states
 /// @param stop ends the refinement; states that were not compared have no estimate
 void refine_path_states(const Model& model, const Analysis& analysis, const Structure& structure,

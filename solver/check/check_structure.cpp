@@ -146,8 +146,9 @@ void check_texts(const Place& model, const Model& data) {
   const Place units = model / "units";
   require_count(units, data.units.size(), kMaxUnits);
   for (std::size_t i = 0; i < std::min(data.units.size(), kMaxUnits); ++i) {
-    require_short(units, data.units[i].first, kMaxUnitLength);
-    require_short(units, data.units[i].second, kMaxUnitLength);
+    const auto& [quantity, unit] = data.units[i];
+    require_short(units / quantity, quantity, kMaxUnitLength);
+    require_short(units / quantity, unit, kMaxUnitLength);
   }
 }
 

@@ -24,7 +24,8 @@ class WorkLimit {
   WorkLimit(WorkLimit&&) = delete;
   WorkLimit& operator=(WorkLimit&&) = delete;
 
-  /// Throws WorkEnded when the limit of this thread is over; does nothing without a limit.
+  /// Throws WorkEnded when the innermost limit that lives on this thread is over; does nothing on a thread
+  /// without a limit.
   static void poll();
 
  private:

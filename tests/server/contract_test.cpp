@@ -20,6 +20,7 @@
 #include "server/resources/routes.h"
 #include "solver/solve.h"
 #include "tests/server/support/json_schema.h"
+#include "tests/server/support/owners.h"
 #include "tests/server/support/running_service.h"
 
 namespace snapthrough::server::test {
@@ -542,9 +543,7 @@ TEST_F(ContractOverHttp, AFollowerSeesThePathOfARunnerGrow) {
 
 TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {
   ServiceConfig keyed = config();
-  // SHA-256 of "alice" and "bob", from sha256sum.
-  keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
-                {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
+  keyed.keys = ann_and_bob();
   service_ = std::make_unique<Service>(keyed, Environment::system(), local_runners(solve), log_);
   ASSERT_TRUE(service_->start().ok());
   const std::string json_type = "Content-Type: application/json";

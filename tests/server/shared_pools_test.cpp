@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/server/support/owners.h"
 #include "tests/server/support/running_service.h"
 
 namespace snapthrough::server::test {
@@ -53,9 +54,7 @@ class SharedPools : public ServiceTest {
  protected:
   ServiceConfig keyed() const {
     ServiceConfig keyed = config();
-    // SHA-256 of "alice" and "bob", from sha256sum.
-    keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
-                  {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
+    keyed.keys = ann_and_bob();
     keyed.listener.limits.body_bytes = 1'000'000;
     return keyed;
   }
@@ -156,7 +155,6 @@ TEST_F(SharedPools, OnePartyHasHalfOfTheMemoryForBodies) {
 TEST_F(SharedPools, OnePartyHasAQuarterOfTheStreams) {
   ServiceConfig few = keyed();
   few.listener.streams = 8;
-  few.keys.front().owner = "ann";
   auto solver = std::make_shared<GatedSolver>();
   service_ = std::make_unique<Service>(few, Environment::system(), local_runners(gated(solver)), log_);
   ASSERT_TRUE(service_->start().ok());

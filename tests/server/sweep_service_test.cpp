@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/sweep.h"
+#include "tests/server/support/owners.h"
 #include "tests/server/support/running_service.h"
 #include "tests/server/support/sanitizer.h"
 
@@ -58,9 +59,7 @@ class SweepService : public ServiceTest {
   /// Starts with the owners ann, whose key is "alice", and bob.
   void start_keyed(SolveFunction solver) {
     ServiceConfig keyed = config();
-    // SHA-256 of "alice" and "bob", from sha256sum.
-    keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
-                  {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
+    keyed.keys = ann_and_bob();
     service_ =
         std::make_unique<Service>(keyed, Environment::system(), local_runners(std::move(solver)), log_);
     ASSERT_TRUE(service_->start().ok());

@@ -42,10 +42,9 @@ bool are_one_file(const std::string& a, const std::string& b) {
 /// Whether a copy named `name` would write to, or remove, a file of the store.
 bool touches_store(const std::string& path, const std::string& name) {
   for (const char* own : kFilesOfAStore) {
-    for (const char* written : {"", "-journal", "-wal", "-shm"}) {
-      if (are_one_file(path + own, name + written)) {
-        return true;
-      }
+    const auto is_own = [&](const char* ending) { return are_one_file(path + own, name + ending); };
+    if (is_own("") || std::ranges::any_of(kBesideIt, is_own)) {
+      return true;
     }
   }
   return false;
@@ -63,6 +62,16 @@ void remove_unfinished(const std::string& path) {
   remove_beside(path);
 }
 
+/// Removes an older file with what SQLite keeps beside it, if there is any of the latter: a file alone is
+/// replaced at once by rename().
+bool remove_with_leftovers(const std::string& name, const std::string& folder) {
+  if (std::ranges::none_of(kBesideIt, [&name](const char* ending) { return exists(name + ending); })) {
+    return true;
+  }
+  const bool removed = ::unlink(name.c_str()) == 0 || errno == ENOENT;
+  return removed && remove_beside(name) && sync_path(folder, O_RDONLY | O_DIRECTORY);
+}
+
 /// @brief Writes a finished file to the disk and gives it its final name; an older file of that name goes.
 ///
 /// SQLite would read an older file's -wal or -journal as the new one's. They are removed after the older
@@ -70,13 +79,9 @@ void remove_unfinished(const std::string& path) {
 Status publish_file(const std::string& unfinished, const std::string& name) {
   const std::size_t slash = name.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : name.substr(0, slash + 1);
-  const bool has_leftovers =
-      std::ranges::any_of(kBesideIt, [&name](const char* ending) { return exists(name + ending); });
-  const bool published =
-      sync_path(unfinished, O_RDWR) &&
-      (!has_leftovers || ((::unlink(name.c_str()) == 0 || errno == ENOENT) && remove_beside(name) &&
-                          sync_path(folder, O_RDONLY | O_DIRECTORY))) &&
-      ::rename(unfinished.c_str(), name.c_str()) == 0 && sync_path(folder, O_RDONLY | O_DIRECTORY);
+  const bool published = sync_path(unfinished, O_RDWR) && remove_with_leftovers(name, folder) &&
+                         ::rename(unfinished.c_str(), name.c_str()) == 0 &&
+                         sync_path(folder, O_RDONLY | O_DIRECTORY);
   return published ? Status()
                    : Status(StatusCode::io_error, name + ": " + std::generic_category().message(errno));
 }

@@ -156,7 +156,7 @@ Connection::Connection(const std::string& path, Access access) {
   sqlite3_busy_timeout(handle, 5000);
   if (access == Access::read_write) {
     execute(
-        // Without effect in a file that has tables: only stores that are made by this version shrink.
+        // auto_vacuum has no effect on a file that has tables: stores of older versions do not shrink.
         "PRAGMA auto_vacuum = INCREMENTAL;"
         "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = OFF;"
         "PRAGMA journal_size_limit = 8388608;");

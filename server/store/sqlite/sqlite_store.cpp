@@ -16,8 +16,9 @@
 namespace snapthrough::server::sqlite {
 namespace {
 
-/// Pages that are given back in one transaction, and consecutive transactions.
+/// Most pages of the file that one transaction gives back to the file system.
 constexpr int kPagesAtOnce = 256;
+/// Most such transactions in one call of give_back_space().
 constexpr int kShrinksAtOnce = 64;
 
 /// Pages of a database file.
