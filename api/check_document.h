@@ -6,10 +6,12 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "api/api.h"
+#include "api/expected_time.h"
 #include "api/sweep.h"
 
 namespace snapthrough::api {
@@ -20,6 +22,8 @@ struct CheckedDocument {
   std::uint64_t points = 1;       ///< number of points of a sweep
   int unknowns =
       0;  ///< free displacements of the first mesh, for a sweep at its first valid point; 0: none valid
+  /// Processor time of the analysis, or of all points of a sweep; nullopt: no point that was read is valid.
+  std::optional<ExpectedTime> expected = std::nullopt;
 };
 
 /// Further findings of the caller about a valid request, such as too much memory.
@@ -39,8 +43,8 @@ using AlsoRefused = std::function<std::vector<Finding>(const Request&)>;
                                           std::uint64_t most_points = kMaxSweepPoints,
                                           const AlsoRefused& also = {});
 
-/// Returns `{"valid", "errors", "size": {"points", "unknowns"} or null}` as JSON text; invalid UTF-8 is
-/// replaced.
+/// Returns `{"valid", "errors", "size": {"points", "unknowns", "expected"} or null}` as JSON text, where
+/// `expected` is `{"cpu_seconds", "low", "high", "model"}` or null; invalid UTF-8 is replaced.
 [[nodiscard]] std::string write_check(const CheckedDocument& checked);
 
 }  // namespace snapthrough::api

@@ -308,7 +308,7 @@ template <>
 inline constexpr auto kFields<Failure> =
     std::tuple{field("code", &Failure::code), field("detail", &Failure::detail)};
 
-/// Documents also have `model`, the title and the units of the request.
+/// Documents also have `kind`, `program`, `request_sha256`, and `model`: title and units of the request.
 template <>
 inline constexpr auto kFields<Result> = std::tuple{
     field("summary", &Result::summary),

@@ -38,8 +38,13 @@ std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::
 
 std::optional<TableForm> table_form_from(std::string_view name) { return value_of(kTableForms, name); }
 
-TableWriter::TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links)
-    : sweep_(sweep.for_table()), form_(form), links_(std::move(links)), columns_(sweep.columns()) {
+TableWriter::TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links,
+                         std::string about)
+    : sweep_(sweep.for_table()),
+      form_(form),
+      links_(std::move(links)),
+      about_(std::move(about)),
+      columns_(sweep.columns()) {
   if (form_ == TableForm::ndjson || (form_ == TableForm::csv && links_)) {
     columns_.emplace_back("point");
   }
@@ -55,7 +60,7 @@ std::string TableWriter::head() const {
   std::string text;
   switch (form_) {
     case TableForm::json:
-      text = "{\"columns\": " + Json(columns_).dump() + ",\n";
+      text = "{" + about_ + (about_.empty() ? "" : ",\n ") + "\"columns\": " + Json(columns_).dump() + ",\n";
       if (links_) {
         text += " \"links\": " + Json{{"request", links_->request}, {"job", links_->job}}.dump() + ",\n";
       }

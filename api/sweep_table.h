@@ -38,7 +38,9 @@ struct PointLinks {
 /// a member `links`, and CSV has the columns `point` and `request`.
 class TableWriter {
  public:
-  TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links = {});
+  /// @param about members of the JSON document that tell what made it (provenance_members()); "": none
+  TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links = {},
+              std::string about = {});
 
   /// Returns the text before the rows.
   [[nodiscard]] std::string head() const;
@@ -59,6 +61,7 @@ class TableWriter {
   Sweep sweep_;
   TableForm form_;
   std::optional<PointLinks> links_;
+  std::string about_;
   std::vector<std::string> columns_;
   std::vector<std::string> keys_;  ///< quoted member names of NDJSON
   /// Ranges [first, end) of the numbers of written points in their order, for the end of a JSON document.

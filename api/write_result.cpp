@@ -7,6 +7,7 @@
 
 #include "api/api.h"
 #include "api/field_json.h"
+#include "api/provenance.h"
 #include "api/result_fields.h"
 
 namespace snapthrough::api {
@@ -52,6 +53,15 @@ nlohmann::json write_result(const Request& request, const Result& result, double
   Json document = object_json(result, wanted);
   if (wanted("model")) {
     document.emplace("model", write(request.model));
+  }
+  if (wanted("kind")) {
+    document.emplace("kind", "result");
+  }
+  if (wanted("program")) {
+    document.emplace("program", program_json());
+  }
+  if (wanted("request_sha256") && request.document) {
+    document.emplace("request_sha256", request_digest(*request.document));
   }
   if (wanted("diagnostics")) {
     document["diagnostics"]["wall_time_s"] = wall_time_s;

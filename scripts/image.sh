@@ -12,7 +12,8 @@ name=snapthrough-image-test
 step() { echo "== $*" >&2; "$@"; }
 
 with_docker() {
-  step docker build --build-arg "BASE=${BASE:-debian:bookworm-slim}" --build-arg "JOBS=${JOBS:-}" -f docker/Dockerfile -t snapthrough .
+  step docker build --build-arg "BASE=${BASE:-debian:bookworm-slim}" --build-arg "JOBS=${JOBS:-}" \
+    --build-arg "SNAPTHROUGH_BUILD=$(git rev-parse --short=12 HEAD 2>/dev/null || true)" -f docker/Dockerfile -t snapthrough .
   step docker run -d --rm --name "$name" --network host --read-only --tmpfs /tmp --cap-drop ALL \
     --security-opt no-new-privileges -v "$name:/data" -e "SNAPTHROUGH_LISTEN=127.0.0.1:$port" snapthrough
   trap 'docker stop -t 15 "$name" >/dev/null' EXIT
@@ -43,7 +44,8 @@ with_buildah() {
   cp -rL /etc/apt/. "$apt_copy"
   volumes=(-v "$apt_copy:/etc/apt")
   step buildah build --isolation chroot --network host --pull-never --format docker --layers "${volumes[@]}" \
-    --build-arg "BASE=${BASE:-localhost/debian:bookworm-slim}" --build-arg "JOBS=${JOBS:-}" -f docker/Dockerfile -t localhost/snapthrough .
+    --build-arg "BASE=${BASE:-localhost/debian:bookworm-slim}" --build-arg "JOBS=${JOBS:-}" \
+    --build-arg "SNAPTHROUGH_BUILD=$(git rev-parse --short=12 HEAD 2>/dev/null || true)" -f docker/Dockerfile -t localhost/snapthrough .
   rm -rf "$apt_copy"
   step podman --runtime runc run -d --rm --name "$name" --network host --ulimit nofile=20000:20000 \
     --ulimit nproc=20000:20000 --no-healthcheck --read-only --tmpfs /tmp --cap-drop ALL \

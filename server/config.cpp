@@ -93,6 +93,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.job_memory >= kLeastJobMemory, "jobs.job_memory", "must be >= 1048576 bytes");
   require(jobs.keep_jobs.count() >= 0, "jobs.keep_jobs", "must be >= 0");
   require(jobs.keep_keys.count() >= 0, "jobs.keep_keys", "must be >= 0");
+  require(jobs.keep_records.count() >= 0, "jobs.keep_records", "must be >= 0");
   require(web == http::kEmbeddedPage || web == http::kNoPage ||
               std::filesystem::is_regular_file(std::filesystem::path(web) / "index.html"),
           "web", "must be built-in, none, or a folder with the index.html of the page");
@@ -117,6 +118,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   for (const http::ApiKey& key : keys) {
     require(!key.owner.empty(), "keys.owner", "must not be empty");
     require(is_digest(key.sha256), "keys.sha256", "must be 64 lower-case hexadecimal digits");
+    require(!key.scopes.empty(), "keys.scopes", "must have read, submit or metrics");
   }
   return mistakes;
 }

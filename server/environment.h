@@ -24,6 +24,13 @@ struct Environment {
   [[nodiscard]] static Environment system();
 };
 
+/// @brief Returns the monotonic clock as a time. It is comparable with its own times only, and goes on evenly
+/// when the wall clock is set.
+[[nodiscard]] inline Time steady_time(const Environment& environment) {
+  const std::chrono::duration<double> seconds(environment.monotonic_seconds());
+  return Time(std::chrono::floor<std::chrono::microseconds>(seconds));
+}
+
 /// Returns a time in RFC 3339 format in UTC with microseconds, such as "2026-01-31T08:30:00.250000Z".
 [[nodiscard]] std::string rfc3339(Time time);
 

@@ -1,5 +1,6 @@
 #include "server/service.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -73,7 +74,8 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"default_wait_s", number(config.waits.default_wait.count())},
           {"longest_wait_s", number(config.waits.longest_wait.count())},
           {"keep_jobs_s", number(config.jobs.keep_jobs.count())},
-          {"keep_keys_s", number(config.jobs.keep_keys.count())}};
+          {"keep_keys_s", number(config.jobs.keep_keys.count())},
+          {"keep_records_s", number(config.jobs.keep_records.count())}};
 }
 
 ChildRunnerOptions runner_options(const ServiceConfig& config) {
@@ -130,8 +132,9 @@ struct Service::Parts {
         keys(config.keys),
         gateway(routes, environment, log, keys, metrics, http::CrossOrigin(config.allowed_origins),
                 config.front ? http::Answers::all : http::Answers::state),
+        thread_wait(config.listener.times.thread),
         listener(listener_options(config), gateway),
-        upkeep_thread(upkeep, environment),
+        upkeep_thread(upkeep),
         webhooks({*store, environment, log, config.callback_times, webhook_counters},
                  config.front ? callback_origins(config.jobs.callback_hosts) : std::vector<std::string>(),
                  std::move(callback_key)) {
@@ -152,6 +155,7 @@ struct Service::Parts {
   http::Routes routes;
   http::KeyRing keys;
   http::Gateway gateway;
+  const std::chrono::milliseconds thread_wait;
   http::Listener listener;
   UpkeepThread upkeep_thread;
   WebhookCounters webhook_counters;
@@ -168,7 +172,7 @@ std::string Service::Parts::metrics_text() {
   if (const StatusOr<std::optional<Time>> oldest = store->oldest_waiting(now); oldest.ok()) {
     write_metric(text, "snapthrough_oldest_waiting_job_seconds", "gauge",
                  "Since the oldest accepted job was handed in; 0 when none waits.",
-                 std::chrono::duration<double>(now - oldest->value_or(now)).count());
+                 std::max(0.0, std::chrono::duration<double>(now - oldest->value_or(now)).count()));
   }
   const http::ListenerLoad load = listener.load();
   const StoreHealth& health = jobs.context().health;
@@ -179,6 +183,8 @@ std::string Service::Parts::metrics_text() {
   gauge("snapthrough_streams", "Open streams of events.", load.streams);
   gauge("snapthrough_buffered_bytes", "Of incomplete requests and responses that are being sent.",
         static_cast<double>(load.buffered_bytes));
+  gauge("snapthrough_thread_wait_seconds", "For which requests have waited because others have all threads.",
+        std::chrono::duration<double>(load.longest_wait).count());
   gauge("snapthrough_jobs_waiting", "Accepted jobs, about.",
         static_cast<double>(jobs.context().waiting.value()));
   gauge("snapthrough_jobs_running", "Analyses of this process.",
@@ -186,6 +192,8 @@ std::string Service::Parts::metrics_text() {
   const auto counter = [&](const char* name, const char* help, std::int64_t value) {
     write_metric(text, name, "counter", help, static_cast<double>(value));
   };
+  counter("snapthrough_connections_without_memory_total", "Ended because there was no memory for them.",
+          load.without_memory);
   gauge("snapthrough_sweeps_active", "Sweeps that points are given out of.",
         static_cast<double>(jobs.sweeps().work().count()));
   counter("snapthrough_runners_started_total", "Processes that compute, started.", runner_counters.started);
@@ -226,6 +234,10 @@ std::string Service::Parts::not_ready() const {
   if (runner_counters.without_process > 0) {
     return "The system starts no process for an analysis: too many descriptors or processes, or too little "
            "memory.";
+  }
+  if (listener.load().longest_wait > thread_wait) {
+    return "The front cannot answer: requests wait for a thread for longer than " +
+           std::to_string(thread_wait.count()) + " ms.";
   }
   return store->get("").ok() ? "" : "The store can't be read.";
 }
@@ -301,6 +313,7 @@ void Service::stop() {
   }
   const WorkerContext& context = parts_->jobs.context();
   context.health.draining = true;
+  parts_->listener.begin_drain();
   std::this_thread::sleep_for(config_.drain_delay);
   parts_->workers.stop();
   context.completions.close();  // after the workers: waiting clients then get the final status of their jobs

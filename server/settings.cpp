@@ -7,8 +7,7 @@
 #include <numeric>
 #include <sstream>
 
-#include <toml++/toml.h>
-
+#include "server/key_settings.h"
 #include "server/store/open_store.h"
 
 namespace snapthrough::server {
@@ -257,6 +256,10 @@ std::vector<Setting> job_settings() {
       duration(
           "keep_keys_s", "How long idempotency keys are known",
           [](ServiceConfig & c) -> auto& { return c.jobs.keep_keys; }),
+      duration(
+          "keep_records_s",
+          "How long usage and events of owners are kept (/v1/usage, /v1/audit); 0: for ever",
+          [](ServiceConfig & c) -> auto& { return c.jobs.keep_records; }),
       whole("ballast_bytes", "Reserve on the disk of the store; 0: none",
             [](ServiceConfig& c) -> std::int64_t& { return c.ballast_bytes; }),
       whole("least_free_bytes", "With less on the disk of the store no jobs are taken",
@@ -298,29 +301,6 @@ std::string no_such_setting(const std::string& name, const Form& form) {
          });
 }
 
-std::string place(const std::string& file, const toml::node& node) {
-  return file + ":" + std::to_string(node.source().begin.line);
-}
-
-void read_keys(const toml::node& node, const std::string& file, ServiceConfig& config,
-               std::vector<ConfigMistake>& mistakes) {
-  const toml::array* list = node.as_array();
-  if (list == nullptr) {
-    mistakes.push_back({place(file, node), "keys: expected [[keys]] tables"});
-    return;
-  }
-  for (const toml::node& entry : *list) {
-    const toml::table* table = entry.as_table();
-    const auto owner = table != nullptr ? (*table)["owner"].value<std::string>() : std::nullopt;
-    const auto digest = table != nullptr ? (*table)["sha256"].value<std::string>() : std::nullopt;
-    if (!owner || !digest || table->size() != 2) {
-      mistakes.push_back({place(file, entry), "keys: each has owner and sha256, and nothing else"});
-      continue;
-    }
-    config.keys.push_back({*owner, *digest});
-  }
-}
-
 void read_file(const std::string& file, ServiceConfig& config, std::vector<ConfigMistake>& mistakes) {
   toml::table parsed;
   try {
@@ -336,7 +316,7 @@ void read_file(const std::string& file, ServiceConfig& config, std::vector<Confi
     const Setting* setting = find_setting(name);
     const std::string where = place(file, node) + ": " + name;
     if (name == "keys") {
-      read_keys(node, file, config, mistakes);
+      read_keys(node, file, config.keys, mistakes);
     } else if (setting == nullptr) {
       mistakes.push_back({where, no_such_setting(name, [](const std::string& known) { return known; })});
     } else if (!node.is_string() && !node.is_integer()) {

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// Conversion of soil parameters, tables and drawings into parts of a model. Every function is reentrant.
+/// Conversion of soil parameters, tables and drawings into parts of a model. Every function is reentrant, and
+/// polls WorkLimit (solver/numeric/work_limit.h) in loops whose length the input sets.
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -25,6 +26,8 @@ struct Conversion {
 /// Pointer into the document.
 /// @param text UTF-8 JSON; the caller limits its size
 [[nodiscard]] Conversion convert_soil(std::string_view text);
+/// Converts a parsed document as convert_soil() does its text.
+[[nodiscard]] Conversion convert_soil_document(const nlohmann::json& soil);
 
 /// A table of comma-separated values with its name in messages.
 struct CsvFile {
@@ -57,5 +60,8 @@ struct DxfOptions {
 /// A member is a line or an arc; the name of its layer is the id of its section. A finding names its place by
 /// the line of the file, such as "line 12".
 [[nodiscard]] Conversion convert_dxf(std::string_view text, const DxfOptions& options);
+
+/// Returns the text of converted parts, as `snapthrough convert` prints it.
+[[nodiscard]] std::string write_parts(const nlohmann::json& parts);
 
 }  // namespace snapthrough::api

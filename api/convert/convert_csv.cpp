@@ -8,6 +8,7 @@
 #include "api/convert/csv_table.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api {
 
@@ -53,6 +54,7 @@ json TableReader::nodes(const CsvFile& file) {
   const CsvTable table(file, kNodeColumns, kMaxNodes, findings_);
   json nodes = json::array();
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    WorkLimit::poll();
     nodes_.add(place(table, row, "id"), table.text(row, "id"));
     nodes.push_back({{"id", table.text(row, "id")},
                      {"x", table.number(row, "x", true).value_or(0.0)},
@@ -65,6 +67,7 @@ json TableReader::sections(const CsvFile& file) {
   const CsvTable table(file, kSectionColumns, kMaxSections, findings_);
   json sections = json::array();
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    WorkLimit::poll();
     sections_.add(place(table, row, "id"), table.text(row, "id"));
     json section{{"id", table.text(row, "id")}};
     for (const Column& column : kSectionColumns) {
@@ -85,6 +88,7 @@ json TableReader::members(const CsvFile& file, json* sections) {
   json members = json::array();
   checks::Ids ids("member");
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    WorkLimit::poll();
     json member;
     for (const char* column : {"id", "start", "end", "section"}) {
       member[column] = table.text(row, column);

@@ -11,6 +11,7 @@
 #include "api/convert/dxf_segments.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api {
 
@@ -59,6 +60,7 @@ class NodeSet {
       return;
     }
     for (const std::size_t i : found->second) {
+      WorkLimit::poll();
       const double distance = std::hypot(points_[i][0] - point[0], points_[i][1] - point[1]);
       if (distance <= least) {
         least = distance;
@@ -96,6 +98,7 @@ double tolerance_of(const DxfOptions& options, const std::vector<Segment>& segme
 void require_layers(const DxfOptions& options, const std::vector<Segment>& segments,
                     std::vector<Finding>& findings) {
   for (const std::string& layer : options.layers) {
+    WorkLimit::poll();
     if (std::none_of(segments.begin(), segments.end(),
                      [&](const Segment& segment) { return segment.layer == layer; })) {
       findings.push_back({"--layer", "unknown_reference",
@@ -110,8 +113,13 @@ void require_layers(const DxfOptions& options, const std::vector<Segment>& segme
 json sections_of(const std::vector<Segment>& segments, std::vector<Finding>& findings) {
   checks::Ids ids("section");
   json sections = json::array();
+  const Segment* before = nullptr;
   for (const Segment& segment : segments) {
-    if (!ids.contains(segment.layer)) {
+    WorkLimit::poll();
+    // Segments of one polyline have one text in the file, which may be long.
+    const bool same = before != nullptr && before->layer.data() == segment.layer.data();
+    before = &segment;
+    if (!same && !ids.contains(segment.layer)) {
       ids.add(checks::Place(PointerPath("line " + std::to_string(segment.line)), findings), segment.layer);
       sections.push_back({{"id", segment.layer}});
     }
@@ -126,6 +134,7 @@ json members_of(const std::vector<Segment>& segments, double tolerance, NodeSet&
                 std::vector<Finding>& findings) {
   json members = json::array();
   for (const Segment& segment : segments) {
+    WorkLimit::poll();
     const std::size_t start = nodes.index_of(segment.start);
     const std::size_t end = nodes.index_of(segment.end);
     if (start == end) {
@@ -169,8 +178,11 @@ Conversion convert_dxf(std::string_view text, const DxfOptions& options) {
   const double tolerance = convert::tolerance_of(options, segments);
   convert::NodeSet nodes(tolerance);
   nlohmann::json parts;
-  parts["members"] = convert::members_of(segments, tolerance, nodes, findings);
   parts["sections"] = convert::sections_of(segments, findings);
+  if (!findings.empty()) {
+    return conversion;  // each member would repeat the name of its layer, however long it is
+  }
+  parts["members"] = convert::members_of(segments, tolerance, nodes, findings);
   parts["nodes"] = nlohmann::json::array();
   for (std::size_t i = 0; i < nodes.points().size(); ++i) {
     parts["nodes"].push_back(

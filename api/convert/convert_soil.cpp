@@ -9,8 +9,10 @@
 #include "api/convert/convert.h"
 #include "api/convert/interpolation.h"
 #include "api/convert/soil.h"
+#include "api/json_text.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api {
 
@@ -71,9 +73,10 @@ class SoilWriter {
 
   const SoilDocument& document_;
   std::vector<Finding>& findings_;
-  std::size_t index_ = 0;  ///< current layer
-  Contact contact_;        ///< part of the current layer that touches the pile
-  bool is_finite_ = true;  ///< all numbers of the current layer are at most kMaxMagnitude
+  std::size_t index_ = 0;             ///< current layer
+  Contact contact_;                   ///< part of the current layer that touches the pile
+  bool is_finite_ = true;             ///< all numbers of the current layer are at most kMaxMagnitude
+  std::size_t numbers_by_depth_ = 0;  ///< written for the layers up to the current one
   json foundations_ = json::array();
 };
 
@@ -81,6 +84,7 @@ json SoilWriter::foundations() {
   const Pile& pile = document_.pile;
   double stress = 0.0;  // vertical effective stress at the top of the layer
   for (index_ = 0; index_ < document_.layers.size(); ++index_) {
+    WorkLimit::poll();
     contact_ = {std::max(layer().from, pile.head_depth), std::min(layer().to, pile.tip_depth()),
                 Cubic({stress - layer().gamma * layer().from, layer().gamma, 0.0, 0.0})};
     stress += layer().gamma * (layer().to - layer().from);
@@ -94,6 +98,11 @@ json SoilWriter::foundations() {
     }
     if (foundations_.size() > kMaxFoundations) {
       report("the layers up to this one need more than " + std::to_string(kMaxFoundations) + " foundations");
+      break;
+    }
+    if (numbers_by_depth_ > kMaxNumbersByDepth) {
+      report("the layers up to this one need more than " + std::to_string(kMaxNumbersByDepth) +
+             " numbers by depth; a larger accuracy needs fewer");
       break;
     }
   }
@@ -207,6 +216,7 @@ void SoilWriter::add(double from, double to, json law, std::size_t curve) {
 /// Returns a value by fractions of the pile's member, linear between.
 json SoilWriter::along(std::span<const double> depths, const ByDepth& value) {
   std::vector<std::array<double, 2>> pairs;
+  numbers_by_depth_ += depths.size();
   for (const double depth : depths) {
     pairs.push_back({document_.pile.fraction(depth), checked(value(depth))});
   }
@@ -223,8 +233,14 @@ double SoilWriter::checked(double value) {
 }  // namespace convert
 
 Conversion convert_soil(std::string_view text) {
+  const ParsedText parsed = parse_json(text);
+  return parsed.document == nullptr ? Conversion{nullptr, parsed.findings}
+                                    : convert_soil_document(*parsed.document);
+}
+
+Conversion convert_soil_document(const nlohmann::json& soil) {
   Conversion conversion;
-  const convert::SoilDocument document = convert::read_soil(text, conversion.findings);
+  const convert::SoilDocument document = convert::read_soil(soil, conversion.findings);
   if (!conversion.findings.empty()) {
     return conversion;
   }

@@ -7,10 +7,20 @@
 #include "api/convert/text.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::convert {
 
 namespace {
+
+/// Largest number of fields of a row that are kept. No table has so many columns, so that a first row that
+/// names more has a column that is unknown, or there twice.
+constexpr std::size_t kKeptFields = 100;
+
+struct CsvRow {
+  std::vector<std::string> fields;  ///< the first kKeptFields
+  std::size_t count = 0;            ///< number of all fields
+};
 
 /// Splits a text into rows of fields, one row at a time.
 class CsvSplitter {
@@ -24,16 +34,20 @@ class CsvSplitter {
   [[nodiscard]] bool has_wrong_quotes() const { return wrong_quotes_; }
 
   /// Returns the fields of the next row. @pre !at_end()
-  std::vector<std::string> next() {
-    std::vector<std::string> fields;
+  CsvRow next() {
+    CsvRow row;
     bool more = true;
     while (more && !wrong_quotes_) {
-      fields.push_back(text_.substr(at_).starts_with('"') ? quoted() : plain());
+      WorkLimit::poll();
+      std::string field = text_.substr(at_).starts_with('"') ? quoted() : plain();
+      if (++row.count <= kKeptFields) {
+        row.fields.push_back(std::move(field));
+      }
       more = !at_end() && text_[at_] == ',';
       at_ += more ? 1 : 0;
     }
     end_line();
-    return fields;
+    return row;
   }
 
  private:
@@ -104,25 +118,27 @@ CsvTable::CsvTable(const CsvFile& file, std::span<const Column> columns, std::si
 
 void CsvTable::read_rows(std::string_view text, std::size_t most_rows) {
   CsvSplitter splitter(text);
+  std::size_t column_count = 0;
   while (!splitter.at_end()) {
     const std::size_t line = splitter.line();
-    std::vector<std::string> fields = splitter.next();
+    auto [fields, count] = splitter.next();
     if (splitter.has_wrong_quotes()) {
       report(line, "malformed",
              "a quote must enclose a whole field, and a quote in the field must be doubled");
       return;
     }
-    if (fields.size() == 1 && fields.front().empty()) {
+    if (count == 1 && fields.front().empty()) {
       continue;
     }
     if (columns_.empty()) {
       columns_ = std::move(fields);
+      column_count = count;
       continue;
     }
-    if (fields.size() != columns_.size()) {
-      report(line, "malformed",
-             "the row has " + std::to_string(fields.size()) + " fields, the first row " +
-                 std::to_string(columns_.size()));
+    if (count != column_count) {
+      report(
+          line, "malformed",
+          "the row has " + std::to_string(count) + " fields, the first row " + std::to_string(column_count));
       return;
     }
     if (rows_.size() == most_rows) {

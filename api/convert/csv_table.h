@@ -26,7 +26,7 @@ struct Column {
 class CsvTable {
  public:
   /// Reads a table; reports what breaks RFC 4180, unknown and missing columns, rows with too few or too many
-  /// fields, and more than `most_rows` rows. A table with findings has no rows.
+  /// fields, and more than `most_rows` rows. A table with findings has no rows. Polls WorkLimit.
   CsvTable(const CsvFile& file, std::span<const Column> columns, std::size_t most_rows,
            std::vector<Finding>& findings);
 

@@ -7,6 +7,7 @@
 #include "api/convert/text.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::convert {
 
@@ -19,6 +20,7 @@ class GroupReader {
 
   /// Reads the next group; nullopt at the end of the text and after a finding.
   std::optional<Group> next() {
+    WorkLimit::poll();
     const std::optional<std::string_view> code_text = next_line();
     if (!code_text || (code_text->empty() && text_.empty())) {
       return std::nullopt;

@@ -7,6 +7,7 @@
 #include "api/api.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::convert {
 
@@ -53,6 +54,11 @@ class SegmentReader {
   }
   /// Returns the flags of an entity without those that have no influence; reports a closed curve.
   int flags(const Entity& entity);
+  /// Returns whether a drawing with the vertices read so far has too many findings, or too many members.
+  [[nodiscard]] bool is_full(std::size_t vertices) const {
+    return findings_.size() >= static_cast<std::size_t>(kMaxFindings) ||
+           segments_.size() + vertices > kMaxMembers + 2;
+  }
   void report(std::size_t line, std::string_view code, std::string detail) {
     findings_.push_back(finding_at(line, code, std::move(detail)));
   }
@@ -129,6 +135,9 @@ void SegmentReader::read_light_polyline(const Entity& entity) {
   const double elevation = std::abs(optional(entity, 38, 0.0));
   std::vector<Vertex> vertices;
   for (const Group& group : entity.groups) {
+    if (is_full(vertices.size())) {
+      break;
+    }
     if (group.code == 10) {
       vertices.push_back({group.line, {number_of(group, findings_), 0.0}, 0.0, elevation});
     } else if (group.code == 20 && !vertices.empty()) {
@@ -146,6 +155,9 @@ void SegmentReader::read_polyline(const Entity& entity, std::span<const Entity> 
   }
   std::vector<Vertex> corners;
   for (const Entity& vertex : vertices) {
+    if (is_full(corners.size())) {
+      break;
+    }
     corners.push_back({vertex.line,
                        {number(vertex, 10), number(vertex, 20)},
                        optional(vertex, 42, 0.0),
@@ -159,8 +171,9 @@ void SegmentReader::add(const Entity& entity, const std::vector<Vertex>& vertice
   if (vertices.size() < 2) {
     report(entity.line, "zero_length", std::string(entity.type) + " needs two vertices");
   }
+  const std::string_view layer = layer_of(entity);  // searches all groups
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-    segments_.push_back({vertices[i].line, layer_of(entity), vertices[i].at, vertices[i + 1].at,
+    segments_.push_back({vertices[i].line, layer, vertices[i].at, vertices[i + 1].at,
                          4.0 * std::atan(vertices[i].bulge) / kDegrees,
                          std::max(vertices[i].elevation, vertices[i + 1].elevation)});
   }
@@ -168,6 +181,7 @@ void SegmentReader::add(const Entity& entity, const std::vector<Vertex>& vertice
 
 std::vector<Segment> SegmentReader::read() {
   while (next_ < entities_.size() && findings_.size() < static_cast<std::size_t>(kMaxFindings)) {
+    WorkLimit::poll();
     const Entity& entity = entities_[next_++];
     const auto vertices = entity.type == "POLYLINE" ? take_vertices() : std::span<const Entity>();
     if (!is_wanted(entity)) {

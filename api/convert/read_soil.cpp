@@ -7,7 +7,6 @@
 
 #include "api/convert/soil.h"
 #include "api/convert/ultimate_resistance.h"
-#include "api/json_text.h"
 #include "api/value.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
@@ -190,15 +189,10 @@ static void read(const Value& value, SoilDocument& out) {
   in.finish();
 }
 
-SoilDocument read_soil(std::string_view text, std::vector<Finding>& findings) {
+SoilDocument read_soil(const nlohmann::json& json, std::vector<Finding>& findings) {
   SoilDocument document;
-  const ParsedText parsed = parse_json(text);
-  findings = parsed.findings;
-  if (parsed.document == nullptr) {
-    return document;
-  }
   Report report;
-  read(Value(*parsed.document, PointerPath(), report), document);
+  read(Value(json, PointerPath(), report), document);
   if (report.findings().empty()) {
     require_order(document, report);
   }

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -18,6 +18,9 @@ inline constexpr std::size_t kMaxLayers = 1'000;
 
 /// Largest number of depths of a layer between which its curves are linear.
 inline constexpr std::size_t kMaxBreakPoints = 1'000;
+/// Largest number of stiffnesses and capacities by depth that all layers together are given, which bounds the
+/// text of a conversion to some megabytes: each takes about 90 bytes.
+inline constexpr std::size_t kMaxNumbersByDepth = 50'000;
 /// Least and largest value of a soil document's `accuracy`.
 inline constexpr double kLeastAccuracy = 1e-4;
 inline constexpr double kLargestAccuracy = 0.1;
@@ -70,6 +73,6 @@ struct SoilDocument {
 [[nodiscard]] std::string foundation_id(const Pile& pile, std::size_t layer, std::size_t curve);
 
 /// Returns the document; its value has no meaning when `findings` gets entries.
-[[nodiscard]] SoilDocument read_soil(std::string_view text, std::vector<Finding>& findings);
+[[nodiscard]] SoilDocument read_soil(const nlohmann::json& json, std::vector<Finding>& findings);
 
 }  // namespace snapthrough::api::convert

@@ -15,8 +15,8 @@ function(embed_openapi openapi output)
 namespace snapthrough::api {
 
 std::string_view openapi_document() {
-  static constexpr std::string_view document =@pieces@;
-  return document;
+  static constexpr char document[] =@pieces@;
+  return {document, sizeof document - 1};  // to count its characters at compile time takes too many steps
 }
 
 }  // namespace snapthrough::api

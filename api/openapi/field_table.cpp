@@ -183,17 +183,13 @@ std::string row(const DocumentField& field) {
   Texts kinds;
   Texts units;
   Texts descriptions;
-  std::string preset;
   for (const Schema* form : field.forms) {
     add_once(kinds, values(*form));
     if (!dereferenced(*form).contains("properties")) add_units(*form, units);
     add_once(descriptions, form->value("description", ""));
-    for (const Schema* one : {form, &dereferenced(*form)}) {
-      if (preset.empty() && one->contains("default")) preset = "; default " + code(one->at("default"));
-    }
   }
-  return "| `" + field.path + "`" + (field.required ? "" : " ?") + " | " + joined(kinds, " or ") + preset +
-         " | " + joined(units, "; ") + " | " + joined(descriptions, " / ") + " |\n";
+  return "| `" + field.path + "`" + (field.required ? "" : " ?") + " | " + joined(kinds, " or ") + " | " +
+         joined(units, "; ") + " | " + joined(descriptions, " / ") + " |\n";
 }
 
 std::string table(const std::string& name) {

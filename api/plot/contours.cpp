@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "api/plot/ink.h"
+
 namespace snapthrough::api::plot {
 namespace {
 
@@ -41,8 +43,11 @@ void add_pieces(const std::array<Corner, 4>& corners, double level, std::vector<
 std::vector<std::vector<Segment>> contours(const Grid& grid, const std::vector<double>& levels) {
   std::vector<std::vector<Segment>> pieces(levels.size());
   const std::size_t columns = grid.x.size();
+  constexpr std::size_t kCoordinates = 4;  // numbers of a segment
+  std::size_t found = 0;
   for (std::size_t j = 0; j + 1 < grid.y.size(); ++j) {
     for (std::size_t i = 0; i + 1 < columns; ++i) {
+      Ink::require(kCoordinates * found);
       const auto corner = [&](std::size_t p, std::size_t q) {
         return Corner{{grid.x[p], grid.y[q]}, grid.values[q * columns + p]};
       };
@@ -53,7 +58,9 @@ std::vector<std::vector<Segment>> contours(const Grid& grid, const std::vector<d
         continue;
       }
       for (std::size_t k = 0; k < levels.size(); ++k) {
+        const std::size_t before = pieces[k].size();
         add_pieces(corners, levels[k], pieces[k]);
+        found += pieces[k].size() - before;
       }
     }
   }

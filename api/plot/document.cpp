@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "api/plot/plot.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {
 namespace {
@@ -38,7 +39,10 @@ std::optional<Field> Field::find(std::string_view key) const {
   return Field(*found, place_.with(std::string_view(found.key())));
 }
 
-Field Field::item(std::size_t index) const { return Field((*value_)[index], place_.with(index)); }
+Field Field::item(std::size_t index) const {
+  WorkLimit::poll();
+  return Field((*value_)[index], place_.with(index));
+}
 
 std::size_t Field::size() const {
   if (!value_->is_array()) {

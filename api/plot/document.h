@@ -33,7 +33,7 @@ class Field {
   [[nodiscard]] Field at(std::string_view key) const;
   /// Returns a member of an object; nullopt when the member is absent or null.
   [[nodiscard]] std::optional<Field> find(std::string_view key) const;
-  /// Returns an item of a list. @pre index < size()
+  /// Returns an item of a list; polls WorkLimit. @pre index < size()
   [[nodiscard]] Field item(std::size_t index) const;
   /// Returns the number of items of a list.
   [[nodiscard]] std::size_t size() const;

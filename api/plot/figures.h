@@ -30,6 +30,9 @@ struct ResultInput {
 /// Draws a mode on the undeformed structure, or its displacements over arc length when the axes are unknown.
 [[nodiscard]] Figure mode_figure(const ResultInput& input, const PlotRequest& request, Size size);
 
+/// Draws the undeformed structure with supports, springs, ground, loads and monitors. @pre input.model
+[[nodiscard]] Figure model_figure(const ResultInput& input, const PlotRequest& request, Size size);
+
 /// Draws an output over one parameter; crosses on the axis mark failed points.
 [[nodiscard]] Figure sweep_figure(const Field& document, const PlotRequest& request, Size size);
 

@@ -5,6 +5,8 @@
 #include <functional>
 #include <numbers>
 
+#include "api/plot/ink.h"
+
 namespace snapthrough::api::plot {
 namespace {
 
@@ -198,6 +200,7 @@ Axis member_axis(const Field& member, const std::optional<Field>& curve, Point s
     member.fail("has no length: its nodes are at one place");
   }
   const auto [along, intervals] = curve_of(curve, start, end);
+  Ink::spend(2 * (intervals + 1));
   Axis axis;
   for (std::size_t i = 0; i <= intervals; ++i) {
     const Point point = along(static_cast<double>(i) / static_cast<double>(intervals));

@@ -3,6 +3,8 @@
 #include <map>
 
 #include "api/plot/drawing.h"
+#include "api/plot/ink.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {
 namespace {
@@ -18,6 +20,7 @@ struct GroundLine {
 GroundLine surface_through(const ModelFoundation& foundation) {
   GroundLine surface;
   for (std::size_t i = 1; i < foundation.line.size(); ++i) {
+    WorkLimit::poll();
     const Point& a = foundation.line[i - 1];
     const Point& b = foundation.line[i];
     const auto into = foundation.surface->at({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}).into;
@@ -75,7 +78,9 @@ struct Crossing {
 std::map<long, std::vector<Crossing>> crossings_of(const std::vector<Pixel>& polygon, Size size) {
   std::map<long, std::vector<Crossing>> crossings;
   const double end = size.width + size.height;
+  std::size_t found = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
+    Ink::require(2 * found);  // two crossings may give a line of four coordinates
     const Pixel& a = polygon[i];
     const Pixel& b = polygon[(i + 1) % polygon.size()];
     const double from = a.x + a.y;
@@ -86,6 +91,7 @@ std::map<long, std::vector<Crossing>> crossings_of(const std::vector<Pixel>& pol
          from != to && static_cast<double>(k) * kHatchSpacing < high; ++k) {
       const double sum = static_cast<double>(k) * kHatchSpacing;
       crossings[k].push_back({a.x + (sum - from) / (to - from) * (b.x - a.x), to > from ? 1 : -1});
+      ++found;
     }
   }
   return crossings;
@@ -187,6 +193,7 @@ Profile profile_of(const View& view, const ModelFoundation& foundation, const Dr
 Shape ground_shape(const Scene& scene, const View& view, Size size) {
   std::vector<std::vector<Pixel>> bands;
   std::vector<std::vector<Pixel>> surfaces;
+  std::size_t collected = 0;
   const std::vector<ModelFoundation> none;
   for (const ModelFoundation& foundation : scene.input.model != nullptr ? scene.foundations : none) {
     const DrawnMember* member = scene.member(foundation.member);
@@ -196,6 +203,8 @@ Shape ground_shape(const Scene& scene, const View& view, Size size) {
     const GroundLine surface =
         foundation.line.empty() ? surface_of(*member, foundation, scene.extent) : surface_through(foundation);
     const double depth = depth_of(surface, scene.depth);
+    collected += surface.points.size();
+    Ink::require(6 * collected);  // one point at the surface's line, two at its band
     std::vector<Pixel> inner;
     std::vector<Pixel> outer;
     for (std::size_t i = 0; i < surface.points.size(); ++i) {

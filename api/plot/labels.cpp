@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/numeric/work_limit.h"
+
 namespace snapthrough::api::plot {
 namespace {
 
@@ -126,6 +128,7 @@ void Occupancy::add_box(const Box& box, int weight) {
 
 void Occupancy::add_line(std::span<const Pixel> points, int weight) {
   for (std::size_t i = 1; i < points.size(); ++i) {
+    WorkLimit::poll();
     const Pixel& a = points[i - 1];
     const Pixel& b = points[i];
     const double steps = std::min(2000.0, std::ceil(std::hypot(b.x - a.x, b.y - a.y) / kCell));
@@ -157,6 +160,7 @@ double Occupancy::cost(const Box& box) const {
 }
 
 std::optional<Shape> place_label(const LabelRequest& request, Occupancy& taken) {
+  WorkLimit::poll();
   double width = 0;
   for (const Run& run : request.runs) {
     width += text_width(run.text, kSize, run.bold) + (width > 0 ? text_width(" ") : 0);

@@ -278,8 +278,7 @@ std::string sense_of(const ModelMonitor& monitor, bool negative) {
   return negative ? "to the member's right" : "to the member's left";
 }
 
-Model read_model(const nlohmann::json& request) {
-  const Field field = Field(request, PointerPath("request:")).at("model");
+Model read_model(const Field& field) {
   Model model;
   const Field nodes = field.at("nodes");
   for (std::size_t i = 0; i < nodes.size(); ++i) {

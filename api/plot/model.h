@@ -104,8 +104,8 @@ struct Model {
 /// Returns the direction of positive or negative values of a monitor in words, such as "up" or "down".
 [[nodiscard]] std::string sense_of(const ModelMonitor& monitor, bool negative);
 
-/// @brief Reads the model of a request document.
-/// @throws PlotError whose pointer begins with "request:" when the model is invalid
-[[nodiscard]] Model read_model(const nlohmann::json& request);
+/// @brief Reads a model.
+/// @throws PlotError when the model is invalid
+[[nodiscard]] Model read_model(const Field& field);
 
 }  // namespace snapthrough::api::plot

@@ -6,6 +6,7 @@
 #include "api/plot/figures.h"
 #include "api/plot/labels.h"
 #include "api/plot/result.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {
 namespace {
@@ -158,6 +159,7 @@ std::vector<Vertex> vertices_of(const PathData& path, std::size_t index) {
   }
   std::vector<Vertex> points;
   for (const CriticalPoint& point : path.points) {
+    WorkLimit::poll();
     if (!path.is_static && point.branch == index && std::isfinite(value_of(point, path.x))) {
       points.push_back({value_of(point, path.x), point.load_factor, point.arc_length, std::nullopt});
     }
@@ -205,6 +207,7 @@ std::vector<Stability> pieces_of(const std::vector<Vertex>& vertices) {
 /// tangent stiffness does not show flutter.
 void mark_flutter(const PathData& path, Curve& curve) {
   for (const CriticalPoint& point : path.points) {
+    WorkLimit::poll();
     if (path.is_static || point.mark != Mark::flutter || point.branch != curve.branch) {
       continue;
     }

@@ -1,15 +1,18 @@
 #pragma once
 /// @file
-/// Figures of results and of sweep tables as SVG texts, styled as the figures of the web page.
+/// Figures of results, models and sweep tables as SVG texts, styled as the figures of the web page.
 ///
-/// All functions are pure: no files, threads or global state. Equal arguments give equal bytes.
+/// All functions are pure: no files, threads or global state. Equal arguments give equal bytes. Loops whose
+/// length a document sets poll WorkLimit (solver/numeric/work_limit.h).
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "api/json_text.h"
 #include "api/names.h"
@@ -21,13 +24,15 @@ enum class PlotKind {
   shape,     ///< a state: undeformed and deformed members, contact, reactions
   sections,  ///< axial force, shear force, bending moment along the members of a state
   mode,      ///< a buckling mode, or the mode of a critical point
+  model,     ///< the undeformed structure of a request, with supports, springs, ground and loads
   sweep,     ///< an output of a sweep over one parameter, a curve for each value of a second one
   heatmap    ///< an output of a sweep over two parameters
 };
 
-inline constexpr Named<PlotKind> kPlotKinds[] = {
-    {"path", PlotKind::path}, {"shape", PlotKind::shape}, {"sections", PlotKind::sections},
-    {"mode", PlotKind::mode}, {"sweep", PlotKind::sweep}, {"heatmap", PlotKind::heatmap}};
+inline constexpr Named<PlotKind> kPlotKinds[] = {{"path", PlotKind::path},         {"shape", PlotKind::shape},
+                                                 {"sections", PlotKind::sections}, {"mode", PlotKind::mode},
+                                                 {"model", PlotKind::model},       {"sweep", PlotKind::sweep},
+                                                 {"heatmap", PlotKind::heatmap}};
 
 /// Limits of documents to plot. They exceed those of requests: long paths and large sweeps have many values.
 inline constexpr ParseLimits kFigureLimits{64, 20'000'000};
@@ -55,6 +60,10 @@ struct PlotRequest {
   std::optional<std::string> x;       ///< sweep, heatmap: parameter on the horizontal axis
   std::optional<std::string> by;  ///< sweep: parameter with a curve for each value; heatmap: vertical axis
   std::map<std::string, std::string> where;  ///< sweep, heatmap: draw only rows with these parameter values
+  /// Largest number of coordinates of the figure, which bounds its memory and its text; more are an error.
+  /// The points of members' curves, which are sampled whether or not they are drawn, have two each. Default:
+  /// none.
+  std::size_t most_coordinates = std::numeric_limits<std::size_t>::max();
   /// The request that gave the result, or null. shape and mode need it for supports, springs, ground and
   /// loads, path for direction and unit of monitors. It must outlive the call.
   const nlohmann::json* solved_request = nullptr;
@@ -76,15 +85,20 @@ class PlotError : public std::runtime_error {
 
 /// @brief Returns the default kind of a document. Table with two parameters of more than six values each:
 /// heatmap; other table: sweep. Result with buckling modes: mode; with static rows and states: shape; with
-/// branches or static rows: path; else with states: shape; else mode.
-/// @throws PlotError when the document is neither a result nor a table
+/// branches or static rows: path; else with states: shape; else mode. A model without an analysis: model.
+/// @throws PlotError when the document is neither a result, nor a table, nor a model
 [[nodiscard]] PlotKind default_plot_kind(const nlohmann::json& document);
 
-/// @brief Returns the SVG text of a result document (output of `snapthrough solve`) or of a sweep table
-/// (output of `snapthrough sweep`).
+/// Adds a condition "NAME=VALUE" to `where`. Returns false for a text without "=", and for a name that has a
+/// condition already.
+[[nodiscard]] bool add_condition(std::string_view text, PlotRequest& request);
+
+/// @brief Returns the SVG text of a result document (output of `snapthrough solve`), of a sweep table (output
+/// of `snapthrough sweep`), or of a model: a request, `{"model": ...}`, or the model itself, such as
+/// `snapthrough convert` prints it.
 ///
 /// The text is one XML document in UTF-8 with styles, <title> and <desc>; labels are text elements, numbers
-/// are finite. Time and memory are proportional to the document's size. Reentrant.
+/// are finite. Reentrant.
 /// @throws PlotError when the document or the request is invalid; std::bad_alloc
 [[nodiscard]] std::string svg_of(const nlohmann::json& document, const PlotRequest& request = {});
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "api/plot/plot.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {
 namespace {
@@ -232,6 +233,7 @@ std::vector<Pixel> to_pixels(const View& view, const std::vector<double>& x, con
 }
 
 Way way_into(const ModelFoundation& foundation, const DrawnMember& member, double s) {
+  WorkLimit::poll();
   if (foundation.surface) {
     const SurfacePoint at =
         foundation.surface->at({interpolate(member.s, member.x0, s), interpolate(member.s, member.y0, s)});
@@ -317,6 +319,7 @@ Place place_on(const DrawnMember& member, double s) {
 }
 
 std::optional<Place> place_of(const Scene& scene, const Location& location) {
+  WorkLimit::poll();
   std::string id = location.member;
   double fraction = location.fraction;
   if (!location.node.empty() && scene.input.model != nullptr) {

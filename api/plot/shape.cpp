@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "api/plot/ink.h"
 #include "api/plot/plot.h"
 
 namespace snapthrough::api::plot {
@@ -107,7 +108,10 @@ std::string coordinate(double value) {
   const double rounded = std::round(value * 100) / 100;
   const auto end = std::to_chars(std::begin(digits), std::end(digits), rounded == 0 ? 0.0 : rounded,
                                  std::chars_format::fixed);
-  return {std::begin(digits), end.ptr};
+  std::string text(std::begin(digits), end.ptr);
+  constexpr std::size_t kUsual = 16;  // characters; a figure far outside its frame has longer numbers
+  Ink::spend(1 + text.size() / kUsual);
+  return text;
 }
 
 std::string path_data(std::span<const Pixel> points, bool closed) {

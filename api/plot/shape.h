@@ -39,8 +39,8 @@ struct Shape {
 
 enum class Anchor { start, middle, end };
 
-/// Returns the text of a coordinate, rounded to 0.01 pixel.
-/// @throws PlotError when the coordinate is not finite
+/// Returns the text of a coordinate, rounded to 0.01 pixel, and spends it (ink.h).
+/// @throws PlotError when the coordinate is not finite, or the figure has too many
 [[nodiscard]] std::string coordinate(double value);
 
 /// Returns the `d` attribute of a path; a point that is not finite interrupts the line.

@@ -9,6 +9,7 @@
 #include "api/plot/numbers.h"
 #include "api/plot/sweep_axes.h"
 #include "api/plot/table.h"
+#include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kCrowdedTolerance = 0.75;
 
 /// Rows with equal values of the series' parameters, sorted by x.
 struct Curve {
-  std::string name;
+  std::string name;  ///< for the legend; empty beyond the first kNamed curves
   std::vector<std::size_t> rows;
 };
 
@@ -38,20 +39,28 @@ std::vector<const Column*> series_of(const Table& table, const PlotRequest& requ
   return series;
 }
 
+/// Returns the values that a row's curve has in common, such as "k = 10, feet = clamped".
+std::string curve_name(const std::vector<const Column*>& series, std::size_t row) {
+  std::string name;
+  for (const Column* column : series) {
+    name += (name.empty() ? "" : ", ") + column->name + " = " + value_text(*column, column->values[row]);
+  }
+  return name;
+}
+
 std::vector<Curve> curves_of(const std::vector<const Column*>& series, const Column& x) {
   std::map<std::vector<double>, std::size_t> known;
   std::vector<Curve> curves;
   for (std::size_t row = 0; row < x.values.size(); ++row) {
+    WorkLimit::poll();
     std::vector<double> key;
-    std::string name;
     for (const Column* column : series) {
       const double value = column->values[row];
       key.push_back(std::isfinite(value) ? value : -1e300);  // rows without value form one curve
-      name += (name.empty() ? "" : ", ") + column->name + " = " + value_text(*column, value);
     }
     const auto [place, is_new] = known.emplace(std::move(key), curves.size());
     if (is_new) {
-      curves.push_back({name, {}});
+      curves.push_back({curves.size() < kNamed ? curve_name(series, row) : "", {}});
     }
     if (std::isfinite(x.values[row])) {
       curves[place->second].rows.push_back(row);

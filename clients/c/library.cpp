@@ -17,6 +17,7 @@
 #include "api/json_text.h"
 #include "api/plot/plot.h"
 #include "api/plot/plot_choices.h"
+#include "api/provenance.h"
 #include "api/sweep.h"
 #include "api/sweep_table.h"
 #include "api/sweep_unit.h"
@@ -235,10 +236,12 @@ std::string broken_rule(const api::Sweep& sweep, const Points& points) {
   return "";
 }
 
-Answer swept(const api::Sweep& sweep, Points points, Caller& caller) {
+Answer swept(const api::Sweep& sweep, const nlohmann::json& asked, Points points, Caller& caller) {
   const Hooks hooks{.stop = caller.stopped()};
   points.count = std::min(points.count, sweep.size() - points.first);
-  api::TableWriter table(sweep, api::TableForm::json);
+  api::TableWriter table(
+      sweep, api::TableForm::json, std::nullopt,
+      api::provenance_members("table", api::program_text(), api::request_digest(asked)));
   Answer answer{SNAPTHROUGH_DONE, "{\"total\": " + std::to_string(sweep.size()) +
                                       ", \"unit\": " + std::to_string(sweep.unit_size()) + ", " +
                                       table.head().substr(1)};
@@ -314,7 +317,10 @@ snapthrough_document* snapthrough_sweep(const char* document, size_t length, uin
     if (document == nullptr && length > 0) {
       return wrong_use(kTextRule);
     }
-    const api::SweepOutcome read = api::read_sweep({document, length});
+    const api::ParsedText parsed = api::parse_json({document, length});
+    const api::SweepOutcome read = parsed.document != nullptr
+                                       ? api::read_sweep_document(parsed.document)
+                                       : api::SweepOutcome{true, parsed.findings, {}};
     if (!read.sweep) {
       return refused(read.malformed, read.findings);
     }
@@ -322,7 +328,7 @@ snapthrough_document* snapthrough_sweep(const char* document, size_t length, uin
       return wrong_use(rule);
     }
     Caller caller(*stop, callback, user);
-    return swept(*read.sweep, {first, count}, caller);
+    return swept(*read.sweep, *parsed.document, {first, count}, caller);
   });
 }
 

@@ -111,9 +111,10 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_solve(const char* request, 
  * @param document UTF-8 JSON: a request, or a sweep, which has "parameters"
  * @param length   bytes of the document
  * @return {"valid", "errors": [{"pointer", "code", "detail"}...], "size"}, as POST /v1/check of the HTTP service
- *         answers: with DONE `size` is {"points", "unknowns"}, where `points` is 1 for a request and `unknowns` the
- *         number of equations of the first point that can be read; with WRONG_REQUEST `size` is null and `errors` is
- *         not empty. Otherwise a problem
+ *         answers: with DONE `size` is {"points", "unknowns", "expected"}, where `points` is 1 for a request, `unknowns`
+ *         the number of equations of the first point that can be read, and `expected` {"cpu_seconds", "low", "high",
+ *         "model"}, the processor time of all points by a law fitted to measured times, or null when no point can be
+ *         read; with WRONG_REQUEST `size` is null and `errors` is not empty. Otherwise a problem
  */
 SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_check(const char* document, size_t length);
 
@@ -133,7 +134,8 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_check(const char* document,
  * @param callback called after each unit; null for none
  * @param user     passed to the callback
  * @return with DONE or CANCELLED the table that `snapthrough sweep` writes, of these points:
- *         {"total", "unit", "columns": [name...], "rows": [[value...]...], "points": [number...]}, where `total` is
+ *         {"total", "unit", "kind": "table", "program": {"name", "version", "build", "target"}, "request_sha256",
+ *         "columns": [name...], "rows": [[value...]...], "points": [number...]}, where `total` is
  *         the number of points of the whole sweep, and `points` has the number of the point of each row, counted
  *         from 0. The last column, "error", is null, or {"code", "detail"} of a point that failed. CANCELLED has
  *         the rows of the units that had ended. Otherwise a problem

@@ -208,8 +208,7 @@ class Documents(Types):
             is_required = field in schema.get("required", [])
             (required if is_required else optional).append((field, kind))
             resolved = self.contract.resolved(value)
-            default = f"; default {json.dumps(resolved['default'])}" if "default" in resolved else ""
-            words.append(f"{field}{'' if is_required else ' (optional)'}: {sentence(resolved)}{default}.")
+            words.append(f"{field}{'' if is_required else ' (optional)'}: {sentence(resolved)}.")
         text = docstring([sentence(schema) + ".", ""] + words, "    ")
         if required and optional:
             self.write_type(f"_{name}Required", "TypedDict", required, [])
@@ -308,8 +307,9 @@ class Received(Types):
     def property_lines(self, field, schema, name, required):
         kind, make = self.type_of(schema, name)
         resolved = self.contract.resolved(schema)
-        values = [value for value in resolved.get("enum", []) if value is not None]
-        named = f"; one of {', '.join(map(str, values))}" if 0 < len(values) <= 8 else ""
+        values = [value for form in [resolved, *resolved.get("anyOf", [])]
+                  for value in self.contract.resolved(form).get("enum", []) if value is not None]
+        named = f"; one of {', '.join(map(str, values))}" if 1 < len(values) <= 8 else ""
         words = sentence(resolved) + named + ("." if required else "; None when absent.")
         value = f'self._document["{field}"]' if required else f'self._document.get("{field}")'
         if not required and not kind.startswith("Optional[") and kind != "Any":

@@ -17,6 +17,7 @@
 #include "server/cli/convert.h"
 #include "server/cli/plot.h"
 #include "server/cli/remote_arguments.h"
+#include "server/cli/shown.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -42,6 +43,7 @@ struct Arguments {
   std::map<std::string, std::string> settings;  ///< values by name of the setting
   std::string store = "snapthrough.db";
   std::string target;
+  double tolerance = 0.0;
   std::string address = "127.0.0.1:8080";
   bool ready = false;
   RemoteArguments remote;
@@ -76,6 +78,16 @@ CLI::App* add_solve_command(CLI::App& app, Arguments& arguments) {
   command
       ->add_option("--table", arguments.table, "Which table, as CSV; by default that of the type of analysis")
       ->check(CLI::IsMember({"points", "critical_points", "static", "buckling", "vibrations", "states"}));
+  return command;
+}
+
+CLI::App* add_recompute_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_request_command(
+      app, "recompute", "Solve a request again and compare with a stored result", arguments);
+  command->add_option("result", arguments.target, "Result document (JSON)")->required();
+  command->add_option("--tolerance", arguments.tolerance, "Largest relative difference of a number")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   return command;
 }
 
@@ -191,6 +203,9 @@ void add_solving_commands(CLI::App& app, Arguments& arguments) {
   });
   on(add_request_command(app, "check", "Validate a request", arguments), arguments,
      [&arguments](const Streams& streams) { return check_command(arguments.request, streams); });
+  on(add_recompute_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return recompute_command(arguments.request, arguments.target, arguments.tolerance, streams);
+  });
   on(add_sweep_command(app, arguments), arguments, [&arguments](const Streams& streams) {
     // Rows on the terminal replace the bar, unless a file takes the rows.
     const bool bar = ::isatty(STDERR_FILENO) == 1 && (::isatty(STDOUT_FILENO) == 0 || !arguments.out.empty());
@@ -254,7 +269,9 @@ std::shared_ptr<const CLI::App> described_app() {
   return {described, &described->app};
 }
 
-int run(int argc, const char* const* argv, const Streams& streams) {
+int run(int argc, const char* const* argv, const Streams& given) {
+  ShownStream err(given.err);
+  const Streams streams{given.in, given.out, err};
   CLI::App app;
   Arguments arguments;
   describe(app, arguments);

@@ -37,6 +37,13 @@ int solve_command(const std::string& path, const Streams& streams, const SolveOp
 /// Checks a request or a sweep: findings go to `err`, one a line; without findings `out` gets one line.
 int check_command(const std::string& path, const Streams& streams);
 
+/// Solves a request again and compares with a stored result, number by number; what the program took and what
+/// it is are not compared. kNotCompleted when a number differs by more than the tolerance, or anything else
+/// differs; kWrongRequest when the result names another request.
+/// @param tolerance largest relative difference, >= 0
+int recompute_command(const std::string& request_path, const std::string& result_path, double tolerance,
+                      const Streams& streams);
+
 struct SweepOptions {
   api::TableForm form = api::TableForm::json;
   int threads = 1;                     ///< number of points solved at a time, >= 1; does not change rows

@@ -114,7 +114,7 @@ int convert_command(const ConvertArguments& arguments, const Streams& streams) {
   if (conversion->document == nullptr) {
     return kWrongRequest;
   }
-  streams.out << conversion->document->dump(2) << '\n' << std::flush;
+  streams.out << api::write_parts(*conversion->document) << std::flush;
   if (!streams.out) {
     streams.err << "snapthrough: cannot write the parts of the model\n";
     return kOther;

@@ -2,6 +2,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "api/provenance.h"
 #include "api/sweep_table.h"
 #include "server/cli/commands.h"
 #include "server/cli/part_file.h"
@@ -108,7 +109,9 @@ int merge_command(const std::vector<std::string>& paths, api::TableForm form, co
   if (!all_there(parts, streams)) {
     return kOther;
   }
-  api::TableWriter writer(sweep, form);
+  api::TableWriter writer(
+      sweep, form, std::nullopt,
+      api::provenance_members("table", api::program_text(), api::request_digest(first.document())));
   streams.out << writer.head();
   std::uint64_t failed = 0;
   for (const PartRows& part : parts) {

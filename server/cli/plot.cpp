@@ -107,9 +107,10 @@ std::string mistake_in(const PlotArguments& arguments) {
   if (arguments.document == "-" && arguments.request == "-") {
     return "standard input can be the result or the request, not both";
   }
+  api::PlotRequest conditions;
   for (const std::string& condition : arguments.where) {
-    if (condition.find('=') == std::string::npos) {
-      return "--where must be NAME=VALUE, got " + condition;
+    if (!api::add_condition(condition, conditions)) {
+      return "--where must be NAME=VALUE, once for each NAME, got " + condition;
     }
   }
   return "";
@@ -121,8 +122,7 @@ api::PlotRequest request_of(const PlotArguments& arguments, const nlohmann::json
     request.kind = api::value_of(api::kPlotKinds, arguments.kind);
   }
   for (const std::string& condition : arguments.where) {
-    const std::size_t equals = condition.find('=');
-    request.where[condition.substr(0, equals)] = condition.substr(equals + 1);
+    (void)api::add_condition(condition, request);  // checked by mistake_in()
   }
   request.solved_request = solved;
   return request;
@@ -151,10 +151,11 @@ int write_figure(const std::string& svg, const PlotArguments& arguments, const S
 
 std::shared_ptr<PlotArguments> add_plot_command(CLI::App& app) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command = app.add_subcommand("plot", "Draw a result or the table of a sweep as SVG or PNG");
+  CLI::App* command =
+      app.add_subcommand("plot", "Draw a result, a model or the table of a sweep as SVG or PNG");
   command
       ->add_option("result", arguments->document,
-                   "What solve or sweep printed (JSON); - reads standard input")
+                   "What solve, sweep or convert printed, or a request (JSON); - reads standard input")
       ->required();
   command->add_option("-o", arguments->file,
                       "File to write, .svg or .png; SVG on standard output without it");

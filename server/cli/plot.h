@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The command `plot`, which draws figures of results and sweeps.
+/// The command `plot`, which draws figures of results, models and sweeps.
 
 #include <CLI/CLI.hpp>
 #include <memory>

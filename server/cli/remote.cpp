@@ -2,10 +2,10 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -16,7 +16,9 @@
 #include "api/sweep.h"
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
+#include "server/cli/remote_output.h"
 #include "server/cli/remote_service.h"
+#include "server/cli/shown.h"
 #include "server/jobs/state.h"
 
 namespace snapthrough::server::cli {
@@ -238,72 +240,27 @@ int follow(Found& found, RemoteService& service, const WaitOptions& options, con
   const Clock::time_point start = Clock::now();
   while (!has_ended(found.status)) {
     if (options.show_progress) {
-      streams.err << '\r' << found.status.value("message", "") << "\x1b[K" << std::flush;
+      streams.err << line_start << found.status.value("message", "") << line_end << std::flush;
     }
     const int wait_s = next_wait_s(options, start);
     if (wait_s == 0) {
       break;
     }
-    const Answer answer = service.get(found.path, {{"Prefer", "wait=" + std::to_string(wait_s)}});
+    const Answer answer = service.get(found.path, {{"Prefer", "wait=" + std::to_string(wait_s)}},
+                                      {std::chrono::seconds(wait_s)});
     if (answer.status != 200) {
       return tell_problem(answer, service, streams);
     }
     found.status = document_of(answer);
   }
   if (options.show_progress) {
-    streams.err << "\r\x1b[K" << std::flush;
+    streams.err << line_start << line_end << std::flush;
   }
   return kDone;
 }
 
-/// Destination of a result or table: `out`, or a file that is renamed from a temporary one when complete.
-class Output {
- public:
-  Output(std::string path, std::ostream& out) : path_(std::move(path)), out_(out) {
-    if (!path_.empty()) {
-      file_.open(part(), std::ios::binary);
-    }
-  }
-  ~Output() {
-    if (!path_.empty() && !kept_) {
-      file_.close();
-      std::error_code ignored;
-      std::filesystem::remove(part(), ignored);
-    }
-  }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-  Output(Output&&) = delete;
-  Output& operator=(Output&&) = delete;
-
-  void write(std::string_view text) { (path_.empty() ? out_ : file_) << text; }
-  /// Completes the output. Call it after the last write(). @return whether all was written
-  [[nodiscard]] bool keep() {
-    std::ostream& stream = path_.empty() ? out_ : file_;
-    stream << std::flush;
-    kept_ = static_cast<bool>(stream);
-    if (kept_ && !path_.empty()) {
-      file_.close();
-      std::error_code error;
-      std::filesystem::rename(part(), path_, error);
-      kept_ = !error;
-    }
-    return kept_;
-  }
-
- private:
-  [[nodiscard]] std::string part() const { return path_ + ".part"; }
-
-  const std::string path_;
-  std::ostream& out_;
-  std::ofstream file_;
-  bool kept_ = false;
-};
-
-/// Writes a text to its destination. @return `status`, or kOther when writing fails
-int write_whole(std::string_view text, const FetchOptions& options, const Streams& streams, int status) {
-  Output output(options.output, streams.out);
-  output.write(text);
+/// Completes an output. @return `status`, or kOther when writing fails
+int keep(Output& output, const FetchOptions& options, const Streams& streams, int status) {
   if (!output.keep()) {
     streams.err << "snapthrough: cannot write "
                 << (options.output.empty() ? "to standard output" : options.output) << '\n';
@@ -312,9 +269,16 @@ int write_whole(std::string_view text, const FetchOptions& options, const Stream
   return status;
 }
 
-/// Prints warnings as solve_command() does.
-void print_warnings(const json& result, const Streams& streams) {
-  for (const json& warning : result.value("warnings", json::array())) {
+/// Writes a text to its destination. @return as keep()
+int write_whole(std::string_view text, const FetchOptions& options, const Streams& streams, int status) {
+  Output output(options.output, streams.out);
+  output.write(text);
+  return keep(output, options, streams, status);
+}
+
+/// Prints the warnings of a result as solve_command() does.
+void print_warnings(const json& warnings, const Streams& streams) {
+  for (const json& warning : warnings.is_array() ? warnings : json::array()) {
     streams.err << "Warning: " << warning.value("detail", "") << " [" << warning.value("code", "") << "]\n";
   }
 }
@@ -327,7 +291,7 @@ int fetch_reached(const Found& found, const Answer& answer, const FetchOptions& 
   if (reached.is_null()) {
     return status;
   }
-  print_warnings(reached, streams);
+  print_warnings(reached.value("warnings", json()), streams);
   if (options.csv) {
     streams.err << "snapthrough: without --csv what was reached is written\n";
     return status;
@@ -337,39 +301,71 @@ int fetch_reached(const Found& found, const Answer& answer, const FetchOptions& 
 
 int fetch_result(const Found& found, RemoteService& service, const FetchOptions& options,
                  const Streams& streams) {
-  const Answer answer = service.get(found.path + "/result", {{"Accept", "application/json"}});
+  Output result(options.csv ? "" : options.output, streams.out);
+  const Answer answer = service.get(found.path + "/result", {{"Accept", "application/json"}},
+                                    {std::chrono::seconds{0}, kMostKept, &result});
   if (answer.status != 200 && kind_of(document_of(answer)) == "analysis-failed") {
     return fetch_reached(found, answer, options, streams);
   }
   if (answer.status != 200) {
     return tell_problem(answer, service, streams);
   }
-  print_warnings(document_of(answer), streams);
+  print_warnings(result.member("warnings"), streams);
   if (!options.csv) {
-    return write_whole(answer.body, options, streams, kDone);
+    return keep(result, options, streams, kDone);
   }
-  const Answer table = service.get(found.path + "/result?format=csv" +
-                                   (options.table.empty() ? "" : "&table=" + options.table));
-  return table.status == 200 ? write_whole(table.body, options, streams, kDone)
-                             : tell_problem(table, service, streams);
+  Output output(options.output, streams.out);
+  const Answer table = service.get(
+      found.path + "/result?format=csv" + (options.table.empty() ? "" : "&table=" + options.table), {},
+      {std::chrono::seconds{0}, kMostOfDocument, &output});
+  return table.status == 200 ? keep(output, options, streams, kDone) : tell_problem(table, service, streams);
 }
 
-/// Appends the rows of a part of a table to the table.
-void append_part(const std::string& format, const std::string& part, std::string& table, json& document) {
-  if (format == "json") {
-    json next = json::parse(part);
-    if (document.is_null()) {
-      document = std::move(next);
-      return;
-    }
-    for (const char* list : {"rows", "points"}) {
-      document[list].insert(document[list].end(), next[list].begin(), next[list].end());
-    }
-  } else if (format == "csv" && !table.empty()) {
-    table.append(part, part.find('\n') + 1);
-  } else {
-    table += part;
+/// Appends the rows of a part of a table to those of the parts before it.
+void append_part(const std::string& part, json& document) {
+  json next = json::parse(part);
+  if (document.is_null()) {
+    document = std::move(next);
+    return;
   }
+  for (const char* list : {"rows", "points"}) {
+    document[list].insert(document[list].end(), next[list].begin(), next[list].end());
+  }
+}
+
+/// Parts of a table, in order.
+struct Parts {
+  std::string path;          ///< path of the table, with its format
+  std::uint64_t points = 0;  ///< rows of the whole table
+  std::uint64_t step = 1;    ///< rows of a part
+  bool is_joined = false;    ///< the parts are JSON, whose rows are put into one document
+  bool has_head = false;     ///< the first line of each part is the head of the table
+};
+
+/// Gets the parts into the output. Sets whether all rows were there. @return the last answer
+Answer get_parts(const Parts& parts, RemoteService& service, Output& output, bool& is_complete) {
+  json document;
+  std::size_t held = 0;
+  Answer answer;
+  for (std::uint64_t first = 0; first == 0 || first < parts.points; first += parts.step) {
+    answer = service.get(
+        parts.path + "&first=" + std::to_string(first) + "&count=" + std::to_string(parts.step), {},
+        {std::chrono::seconds{0}, kMostKept - std::min(held, kMostKept),
+         parts.is_joined ? nullptr : &output});
+    if (answer.status != 200) {
+      return answer;
+    }
+    is_complete = is_complete && answer.header("x-complete") == "true";
+    held += answer.body.size();
+    if (parts.is_joined) {
+      append_part(answer.body, document);
+    }
+    output.complete(parts.has_head);
+  }
+  if (parts.is_joined) {
+    output.write(document.dump() + "\n");
+  }
+  return answer;
 }
 
 int fetch_table(Found found, RemoteService& service, const FetchOptions& options, const Streams& streams) {
@@ -381,35 +377,23 @@ int fetch_table(Found found, RemoteService& service, const FetchOptions& options
   const std::string format = options.csv ? "csv" : options.ndjson ? "ndjson" : "json";
   const auto points = found.status.value("points", std::uint64_t{0});
   const auto step = static_cast<std::uint64_t>(most);
-  std::string table;
-  json document;
+  Output output(options.output, streams.out);
   bool is_complete = true;
-  for (std::uint64_t first = 0; first == 0 || first < points; first += step) {
-    const Answer part = service.get(found.path + "/table?format=" + format +
-                                    "&first=" + std::to_string(first) + "&count=" + std::to_string(step));
-    if (part.status != 200) {
-      return tell_problem(part, service, streams);
-    }
-    is_complete = is_complete && part.header("x-complete") == "true";
-    if (format == "json" && points <= step) {
-      table = part.body;
-    } else {
-      append_part(format, part.body, table, document);
-    }
-  }
-  if (!document.is_null()) {
-    table = document.dump() + "\n";
+  const Answer last = get_parts(
+      {found.path + "/table?format=" + format, points, step, format == "json" && points > step, options.csv},
+      service, output, is_complete);
+  if (last.status != 200) {
+    return tell_problem(last, service, streams);
   }
   // The sweep may have ended in the meantime.
   if (const Answer now = service.get(found.path); now.status == 200) {
     found.status = document_of(now);
   }
   if (is_complete && has_ended(found.status)) {
-    return write_whole(table, options, streams, tell_end(found, streams));
+    return keep(output, options, streams, tell_end(found, streams));
   }
   streams.err << "snapthrough: rows are missing: " << found.status.value("message", "") << '\n';
-  const int status = has_ended(found.status) ? kNotCompleted : kUnfinished;
-  return write_whole(table, options, streams, status);
+  return keep(output, options, streams, has_ended(found.status) ? kNotCompleted : kUnfinished);
 }
 
 }  // namespace
@@ -439,7 +423,7 @@ int submit_command(const std::string& path, const ServiceOptions& service, const
     return interruption.exit_status();
   }
   const std::string id = document_of(answer).is_object() ? document_of(answer).value("id", "") : "";
-  if ((answer.status != 200 && answer.status != 201) || id.empty()) {
+  if ((answer.status != 200 && answer.status != 201) || !is_id(id)) {
     return tell_problem(answer, *remote, streams, submission->prefix);
   }
   streams.out << id << '\n' << std::flush;
@@ -459,7 +443,7 @@ int wait_command(const std::string& id, const ServiceOptions& service, const Wai
   if (status != kDone) {
     return status;
   }
-  streams.out << found->status.value("status", "") << '\n' << std::flush;
+  streams.out << shown(found->status.value("status", "")) << '\n' << std::flush;
   if (!has_ended(found->status)) {
     streams.err << "The time is over; " << id << " goes on: " << found->status.value("message", "") << '\n';
     return kUnfinished;

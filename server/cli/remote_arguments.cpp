@@ -23,7 +23,7 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description, 
       ->check(CLI::ExistingFile);
   command
       ->add_option("--patience", service.patience_s,
-                   "Seconds for which a request is sent again while the service is full or away")
+                   "Seconds to wait for an answer, and to repeat a request while the service is full or away")
       ->check(CLI::Range(0, kLongestPatience_s))
       ->capture_default_str();
   return command;

@@ -1,14 +1,19 @@
 #include "server/cli/remote_service.h"
 
+#include <fcntl.h>
 #include <httplib.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <charconv>
+#include <mutex>
 #include <thread>
 
 #include "server/bell.h"
+#include "server/descriptor.h"
+#include "server/webhooks/received_bytes.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -16,9 +21,12 @@ namespace {
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
+constexpr int kOk = 200;
 constexpr seconds kToConnect{5};
-// Exceeds the longest time that a service delays an answer until a job ends (longest_wait_s <= 60).
-constexpr seconds kToAnswer{90};
+/// Time that an answer may take whatever the patience: a service reads and checks a costly document so long.
+constexpr seconds kLeastPatience{10};
+/// Bytes of a head after which the connection is cut: the library has no bound on the length of its lines.
+constexpr std::uint64_t kMostOfHead = 1 << 20;
 constexpr seconds kLongestPause{10};
 constexpr std::chrono::milliseconds kBetweenCuts{20};
 
@@ -39,38 +47,100 @@ std::optional<seconds> asked_pause(const Answer& answer) {
   return seconds(count);
 }
 
-/// @brief During its lifetime, a requested stop ends the client's request.
+/// @brief During its lifetime, a requested stop, the end of the time, or a head without end ends the client's
+/// request.
 ///
 /// The client is stopped repeatedly, because it ignores a stop before its connection is open.
 class Cutter {
  public:
-  Cutter(httplib::Client& client, const std::stop_token& stop)
-      : watcher_([&client, stop](const std::stop_token& done) {
+  Cutter(httplib::Client& client, const std::stop_token& stop, Clock::time_point deadline)
+      : deadline_(deadline), watcher_([this, &client, stop](const std::stop_token& done) {
           while (!done.stop_requested()) {
-            if (stop.stop_requested()) {
+            if (stop.stop_requested() || is_late() || has_long_head()) {
               client.stop();
             }
             pause(done, kBetweenCuts);
           }
         }) {}
 
+  /// Watches how much a connection receives until head_came().
+  void watch(int socket) {
+    const std::lock_guard guard(mutex_);
+    socket_ = Descriptor(::fcntl(socket, F_DUPFD_CLOEXEC, 0));
+  }
+  void head_came() { watch(-1); }
+  void extend(Clock::time_point deadline) { deadline_ = deadline; }
+  [[nodiscard]] bool is_late() const { return Clock::now() > deadline_.load(); }
+
  private:
+  [[nodiscard]] bool has_long_head() {
+    const std::lock_guard guard(mutex_);
+    return socket_.get() >= 0 && received_bytes(socket_.get()) > kMostOfHead;
+  }
+
+  std::atomic<Clock::time_point> deadline_;
+  std::mutex mutex_;
+  Descriptor socket_;  ///< a duplicate, because the library may close its own at any time
   std::jthread watcher_;
 };
 
-Answer answer_of(const httplib::Result& result) {
-  Answer answer;
-  if (!result) {
-    answer.trouble = httplib::to_string(result.error());
+/// Takes the head and the body of an answer.
+class Receiver {
+ public:
+  Receiver(const Expected& expected, Cutter& cutter, seconds longest)
+      : expected_(expected), cutter_(cutter), longest_(longest) {}
+
+  bool take_head(int status) {
+    cutter_.head_came();
+    goes_to_sink_ = status == kOk && expected_.sink != nullptr;
+    if (goes_to_sink_) {
+      expected_.sink->begin();
+    }
+    return true;
+  }
+  bool take(std::string_view piece) {
+    if (goes_to_sink_) {
+      cutter_.extend(Clock::now() + longest_);
+      is_unwritable_ = !expected_.sink->write(piece);
+      return !is_unwritable_;
+    }
+    is_too_long_ = piece.size() > expected_.most - body_.size();
+    if (!is_too_long_) {
+      body_ += piece;
+    }
+    return !is_too_long_;
+  }
+  /// Returns the answer with what was received.
+  Answer answer(const httplib::Result& result) {
+    Answer answer;
+    if (is_unwritable_ || is_too_long_) {
+      answer.is_final = true;
+      answer.trouble = is_unwritable_
+                           ? "the answer cannot be written"
+                           : "the answer has more than " + std::to_string(expected_.most >> 20U) + " MiB";
+    } else if (!result && cutter_.is_late()) {
+      answer.trouble = "no complete answer within " + std::to_string(longest_.count()) + " s (--patience)";
+    } else if (!result) {
+      answer.trouble = httplib::to_string(result.error());
+    } else {
+      answer.status = result->status;
+      answer.body = std::move(body_);
+      for (const auto& [name, value] : result->headers) {
+        answer.headers.emplace(lower_case(name), value);
+      }
+    }
     return answer;
   }
-  answer.status = result->status;
-  answer.body = result->body;
-  for (const auto& [name, value] : result->headers) {
-    answer.headers.emplace(lower_case(name), value);
-  }
-  return answer;
-}
+
+ private:
+  const Expected& expected_;
+  Cutter& cutter_;
+  const seconds longest_;
+  std::string body_;
+  bool goes_to_sink_ = false;
+  bool is_unwritable_ = false;
+  bool is_too_long_ = false;
+};
 
 }  // namespace
 
@@ -97,22 +167,25 @@ std::string Answer::header(const std::string& name) const {
   return found == headers.end() ? "" : found->second;
 }
 
-Answer RemoteService::get(const std::string& path, const Headers& headers) {
-  return send("GET", path, "", headers);
+Answer RemoteService::get(const std::string& path, const Headers& headers, const Expected& expected) {
+  return send({"GET", path, "", headers, expected});
 }
 
 Answer RemoteService::post(const std::string& path, const std::string& body, const Headers& headers) {
-  return send("POST", path, body, headers);
+  return send({"POST", path, body, headers, {}});
 }
 
-Answer RemoteService::send(const std::string& method, const std::string& path, const std::string& body,
-                           const Headers& headers) {
-  const Clock::time_point deadline = Clock::now() + access_.patience;
+seconds RemoteService::longest(const Call& call) const {
+  return std::max(access_.patience, kLeastPatience) + call.expected.wait;
+}
+
+Answer RemoteService::send(const Call& call) {
+  const Clock::time_point start = Clock::now();
   seconds own_pause{1};
   while (true) {
-    Answer answer = send_once(method, path, body, headers);
+    Answer answer = send_once(call, start + longest(call));
     const seconds length = asked_pause(answer).value_or(own_pause);
-    if (!may_pass(answer) || Clock::now() + length > deadline) {
+    if (!may_pass(answer) || Clock::now() + length > start + access_.patience) {
       return answer;
     }
     on_pause_(answer.status == 0 ? answer.trouble : "HTTP status " + std::to_string(answer.status), length);
@@ -122,7 +195,7 @@ Answer RemoteService::send(const std::string& method, const std::string& path, c
 }
 
 bool RemoteService::may_pass(const Answer& answer) const {
-  if (stop_.stop_requested()) {
+  if (stop_.stop_requested() || answer.is_final) {
     return false;
   }
   if (answer.status == 0) {
@@ -132,40 +205,49 @@ bool RemoteService::may_pass(const Answer& answer) const {
   return std::find(kPassing.begin(), kPassing.end(), answer.status) != kPassing.end();
 }
 
-Answer RemoteService::send_once(const std::string& method, const std::string& path, const std::string& body,
-                                const Headers& headers) {
+Answer RemoteService::send_once(const Call& call, Clock::time_point deadline) {
   httplib::Client client(access_.address.origin);
   if (!client.is_valid()) {
-    return {0, "the address can't be used", "", {}};
+    return {0, "the address can't be used", true, "", {}};
   }
+  const seconds most = longest(call);
   client.set_connection_timeout(kToConnect);
-  client.set_read_timeout(kToAnswer);
-  client.set_write_timeout(kToAnswer);
+  client.set_read_timeout(most);
+  client.set_write_timeout(most);
   client.set_url_encode(false);
   client.set_follow_location(false);
   if (!access_.certificates.empty()) {
     client.set_ca_cert_path(access_.certificates);
   }
   httplib::Request request;
-  request.method = method;
-  request.path = access_.address.base + path;
-  request.body = body;
+  request.method = call.method;
+  request.path = access_.address.base + call.path;
+  request.body = call.body;
   request.set_header("User-Agent", "snapthrough/" SNAPTHROUGH_VERSION);
-  if (method == "POST") {
+  request.set_header("Accept-Encoding", "gzip");
+  if (call.method == "POST") {
     request.set_header("Content-Type", "application/json");
   }
   if (!access_.key.empty()) {
     request.set_header("Authorization", "Bearer " + access_.key);
   }
-  for (const auto& [name, value] : headers) {
+  for (const auto& [name, value] : call.headers) {
     request.set_header(name, value);
   }
-  const Cutter cutter(client, stop_);
+  Cutter cutter(client, stop_, deadline);
+  Receiver receiver(call.expected, cutter, most);
+  client.set_socket_options([&cutter](int socket) { cutter.watch(socket); });
+  request.response_handler = [&](const httplib::Response& response) {
+    return receiver.take_head(response.status);
+  };
+  request.content_receiver = [&](const char* piece, std::size_t size, std::uint64_t, std::uint64_t) {
+    return receiver.take({piece, size});
+  };
   const httplib::Result result = client.send(request);
   was_reached_ = was_reached_ || static_cast<bool>(result);
   is_connection_lost_ =
       !result && (result.error() == httplib::Error::Read || result.error() == httplib::Error::Write);
-  return answer_of(result);
+  return receiver.answer(result);
 }
 
 }  // namespace snapthrough::server::cli

@@ -11,6 +11,7 @@
 #include "server/cli/commands.h"
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
+#include "server/cli/shown.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {
@@ -38,8 +39,8 @@ Result solve_watched(const api::Request& request, const Streams& streams, const 
   hooks.stop = interruption.token();
   if (show_progress) {
     hooks.on_progress = [&](const Progress& progress) {
-      streams.err << "\rbranch " << progress.branch << ", step " << progress.step << ", load factor "
-                  << progress.load_factor << "   " << std::flush;
+      streams.err << line_start << "branch " << progress.branch << ", step " << progress.step
+                  << ", load factor " << progress.load_factor << "   " << std::flush;
     };
   }
   Result result = solve_checked(request.model, request.analysis, hooks);
@@ -141,7 +142,7 @@ int check_command(const std::string& path, const Streams& streams) {
   if (!findings.empty()) {
     return kWrongRequest;
   }
-  streams.out << name << ": valid" << size << '\n';
+  streams.out << shown(name) << ": valid" << size << '\n';
   return kDone;
 }
 

@@ -13,12 +13,14 @@
 #include <utility>
 
 #include "api/json_text.h"
+#include "api/provenance.h"
 #include "api/sweep_table.h"
 #include "server/cli/commands.h"
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
 #include "server/cli/part_file.h"
 #include "server/cli/progress_bar.h"
+#include "server/cli/shown.h"
 #include "server/worker/unit.h"
 #include "solver/solve.h"
 
@@ -56,8 +58,10 @@ class RowSink {
 
 class TableSink final : public RowSink {
  public:
-  TableSink(const api::Sweep& sweep, api::TableForm form, std::ostream& out)
-      : out_(out), writer_(sweep, form) {
+  TableSink(const api::Sweep& sweep, const nlohmann::json& document, api::TableForm form, std::ostream& out)
+      : out_(out),
+        writer_(sweep, form, std::nullopt,
+                api::provenance_members("table", api::program_text(), api::request_digest(document))) {
     out_ << writer_.head();
   }
 
@@ -168,8 +172,8 @@ class RowQueue {
     next_bar_ = now + kBetweenBars;
     const std::chrono::duration<double> elapsed = now - start_;
     const std::uint64_t all = (units_.end - units_.first) * sweep_.unit_size();
-    *bar_ << '\r' << progress_line(done_, failed_, all, elapsed.count()) << "\x1b[K" << (last ? "\n" : "")
-          << std::flush;
+    *bar_ << line_start << progress_line(done_, failed_, all, elapsed.count()) << line_end
+          << (last ? "\n" : "") << std::flush;
   }
 
   const api::Sweep& sweep_;
@@ -227,9 +231,10 @@ int write_point(const api::Sweep& sweep, std::uint64_t point, const Streams& str
 }
 
 /// Solves the whole sweep and writes its table to the output.
-int write_table(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options) {
+int write_table(const api::Sweep& sweep, const nlohmann::json& document, const Streams& streams,
+                const SweepOptions& options) {
   const Interruption interruption;
-  TableSink sink(sweep, options.form, streams.out);
+  TableSink sink(sweep, document, options.form, streams.out);
   RowQueue queue(sweep, {0, sweep.units()}, sink, options.show_progress ? &streams.err : nullptr,
                  interruption.token());
   const RowCounts rows = compute_rows(sweep, queue, options.threads, interruption.token());
@@ -293,7 +298,7 @@ int sweep_command(const std::string& path, const Streams& streams, const SweepOp
   if (options.point) {
     return write_point(*outcome.sweep, *options.point, streams);
   }
-  return options.out.empty() ? write_table(*outcome.sweep, streams, options)
+  return options.out.empty() ? write_table(*outcome.sweep, *parsed.document, streams, options)
                              : write_part(*outcome.sweep, *parsed.document, streams, options);
 }
 

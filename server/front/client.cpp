@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <new>
 #include <utility>
 
 namespace snapthrough::server::http {
@@ -24,7 +25,12 @@ bool Outbox::put(const std::string& piece, bool last) {
     closed_ = true;
     return false;
   }
-  waiting_ += piece;
+  try {
+    waiting_ += piece;
+  } catch (const std::bad_alloc&) {
+    closed_ = true;
+    return false;
+  }
   last_ = last;
   return true;
 }
@@ -51,9 +57,31 @@ std::size_t Client::held_bytes() const {
   return reader.held() + work_bytes + output.size() + (rest ? rest->held_bytes() : 0);
 }
 
-bool Client::is_gone() const {
+bool Client::is_gone() {
   pollfd state{socket, POLLRDHUP, 0};
-  return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
+  if (::poll(&state, 1, 0) <= 0) {
+    return false;
+  }
+  if ((state.revents & (POLLHUP | POLLERR)) == 0) {
+    ask_whether_it_waits();
+    return false;
+  }
+  return true;
+}
+
+void Client::ask_whether_it_waits() {
+  if (!asked && chunked && output.empty()) {
+    asked = true;
+    const ssize_t sent = ::send(socket, kContinue.data(), kContinue.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent > 0 && sent < static_cast<ssize_t>(kContinue.size())) {
+      ::shutdown(socket, SHUT_RDWR);  // the response would follow half a line
+    }
+  }
+}
+
+bool Client::has_arrived() const {
+  pollfd state{socket, POLLIN, 0};
+  return ::poll(&state, 1, 0) > 0;
 }
 
 Client::Read Client::receive() {

@@ -16,6 +16,9 @@
 
 namespace snapthrough::server::http {
 
+/// Interim response: the request goes on.
+inline constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+
 /// What a connection waits for.
 enum class Phase {
   idle,       ///< first byte of a request
@@ -32,7 +35,8 @@ enum class Phase {
 /// Pieces of a stream that wait to be sent. Thread-safe.
 class Outbox {
  public:
-  /// Adds a piece. Returns false when the client is gone or so slow that too much waits.
+  /// Adds a piece. Returns false when the client is gone or so slow that too much waits, or when there is no
+  /// memory for the piece.
   bool put(const std::string& piece, bool last);
   /// Returns the waiting pieces; sets `last` when no piece follows.
   std::string take(bool& last);
@@ -76,8 +80,18 @@ struct Client {
   /// Reads and discards bytes. Returns `more` if any were read, `ended` at the end of the connection.
   [[nodiscard]] Read discard() const;
   void close();
-  /// Returns whether the client has closed its side of the connection.
-  [[nodiscard]] bool is_gone() const;
+  /// @brief Returns whether the client has closed the connection, so that nobody waits for the response.
+  ///
+  /// A client that has only ended its sending side (shutdown with SHUT_WR) waits. Both look the same until
+  /// something is sent; see ask_whether_it_waits(), which the first call after the end of the side calls.
+  bool is_gone();
+  /// @brief Sends an interim response, once, when nothing else is under way.
+  ///
+  /// The system of a client that has closed the connection resets it then, which is_gone() and an event of
+  /// epoll (EPOLLERR, EPOLLHUP) tell. Clients of HTTP/1.0 know no interim responses and are not asked.
+  void ask_whether_it_waits();
+  /// Returns whether bytes of the client, or the end of its side, wait to be read.
+  [[nodiscard]] bool has_arrived() const;
   /// Returns the approximate memory of the client in bytes.
   [[nodiscard]] std::size_t held_bytes() const;
 
@@ -95,7 +109,9 @@ struct Client {
   bool close_after = false;              ///< close the connection after the response
   bool linger_after = false;             ///< wait for the client before closing
   bool head_only = false;                ///< the request was HEAD: send no body
-  bool chunked = false;                  ///< send a body with `rest` in chunks
+  bool chunked = false;                  ///< HTTP/1.1: send a body with `rest` in chunks
+  bool asked = false;                    ///< the client was asked whether it waits
+  std::atomic<bool> working = false;     ///< a thread computes the response
   std::shared_ptr<BodySource> rest;      ///< rest of the body after `output`
   std::function<Response()> work;        ///< computes the response in its turn
   std::size_t work_bytes = 0;            ///< memory in use by `work`

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include "server/authority.h"
 #include "server/resources/hops/protocol.h"
+#include "server/resources/job_key.h"
 #include "server/resources/page.h"
 #include "solver/numeric/work_limit.h"
 
@@ -83,6 +85,54 @@ bool comes_from_elsewhere(const Request& request, const CrossOrigin& allowed) {
   return origin && *origin != "http://" + std::string(host) && !allowed.allows(*origin);
 }
 
+/// Returns a 503 that asks the client to repeat its request.
+Response unavailable(const char* kind, const char* title, const char* detail, const Request& request) {
+  Response response = problem_response({503, kind, title, detail, {}, "", ""}, request);
+  response.headers.emplace_back("Retry-After", "5");
+  return response;
+}
+
+/// Returns the answer to a request whose document was not read to its end.
+Response ended_response(WorkEnd cause, const Request& request) {
+  if (cause == WorkEnd::stopping) {
+    return unavailable("not-ready", "Not ready", "The service is stopping.", request);
+  }
+  const char* const detail =
+      cause == WorkEnd::abandoned
+          ? "The client left before this document was read and checked."
+          : "Reading and checking this document takes longer than a request may wait for it. Shorter lists, "
+            "and curves with fewer half-waves, are read sooner.";
+  return problem_response({422, "too-costly-to-read", "Too costly to read", detail, {}, "", ""}, request);
+}
+
+/// Returns the refusal of a request that needs a key, by what its key opens; nullopt for a key that serves,
+/// or may: the store knows that of a job.
+std::optional<Response> refusal_of_key(const Request& request, const Access& access) {
+  if (access.expired) {
+    return unauthorized(request, "key-expired", "Key expired",
+                        "This key expired at " + rfc3339(*access.expired) + ".");
+  }
+  if (!access.job_key_sha256.empty()) {
+    return job_key_permits(request.method, request.path)
+               ? std::nullopt
+               : std::optional(simple_problem(request, 403, "scope-missing", "Scope missing",
+                                              "The key of a job permits GET and HEAD of that job's status, "
+                                              "result, table.csv, request and events, and nothing else."));
+  }
+  if (!access.owner) {
+    return unauthorized(request, "unauthorized", "Unauthorized",
+                        "This service needs a key (Authorization: Bearer ..., or RhinoComputeKey: ...) that "
+                        "it knows.");
+  }
+  const Scopes needed = scopes_for(request.method, request.path);
+  if (needed.meets(access.scopes)) {
+    return std::nullopt;
+  }
+  return simple_problem(request, 403, "scope-missing", "Scope missing",
+                        "This needs a key with the scope " + names_of(needed, " or ") + "; this key has " +
+                            names_of(access.scopes, " and ") + ".");
+}
+
 /// A body source that logs failures and turns exceptions into failures.
 class GuardedSource final : public BodySource {
  public:
@@ -119,17 +169,13 @@ class GuardedSource final : public BodySource {
 Response Gateway::guarded(const Request& request, const std::function<Response()>& work) const {
   try {
     return work();
-  } catch (const WorkEnded&) {
-    return problem_response(
-        {422,
-         "too-costly-to-read",
-         "Too costly to read",
-         "Reading and checking this document takes longer than a request may wait for it, or "
-         "the service ends. Shorter lists, and curves with fewer half-waves, are read sooner.",
-         {},
-         "",
-         ""},
-        request);
+  } catch (const WorkEnded& ended) {
+    return ended_response(ended.cause, request);
+  } catch (const std::bad_alloc& error) {
+    Response response =
+        unavailable("overloaded", "Overloaded", "There is no memory for this request now.", request);
+    response.trouble = error.what();
+    return response;
   } catch (const std::exception& error) {
     Response response = problem_response(
         {500, "internal-error", "Internal error", "The request could not be served.", {}, "", ""}, request);
@@ -138,7 +184,7 @@ Response Gateway::guarded(const Request& request, const std::function<Response()
   }
 }
 
-std::optional<Response> Gateway::without_resource(const Request& request, bool known) const {
+std::optional<Response> Gateway::without_resource(const Request& request, const Access& access) const {
   if (answers_ == Answers::state && !is_state(request.path)) {
     return problem_response(
         {404,
@@ -167,28 +213,15 @@ std::optional<Response> Gateway::without_resource(const Request& request, bool k
     const std::string methods = Routes::methods_at(request.path);
     return methods.empty() ? std::nullopt : std::optional(CrossOrigin::preflight(methods));
   }
-  if (!known && !is_public(request)) {
-    Response refused = problem_response({401,
-                                         "unauthorized",
-                                         "Unauthorized",
-                                         "This service needs a key (Authorization: Bearer ..., or "
-                                         "RhinoComputeKey: ...) that it knows.",
-                                         {},
-                                         "",
-                                         ""},
-                                        request);
-    refused.headers.emplace_back("WWW-Authenticate", "Bearer");
-    return refused;
-  }
-  return std::nullopt;
+  return is_public(request) ? std::nullopt : refusal_of_key(request, access);
 }
 
 bool Gateway::answers_at_once(const Request& request) { return is_probe(request.path); }
 
 Caller Gateway::caller_of(const Request& request) const {
-  Caller caller{keys_.owner(request), "address " + request.remote};
-  if (caller.owner && !keys_.open()) {
-    caller.party = "owner " + *caller.owner;
+  Caller caller{keys_.access(request, environment_.now()), "address " + request.remote};
+  if (caller.access.owner && !keys_.open()) {
+    caller.party = "owner " + *caller.access.owner;
   }
   return caller;
 }
@@ -196,8 +229,9 @@ Caller Gateway::caller_of(const Request& request) const {
 std::optional<Response> Gateway::refused_by_head(Request& request, const Caller& caller) {
   const double start = environment_.monotonic_seconds();
   request.id = request_id(request, environment_);
-  request.owner = caller.owner.value_or("");
-  std::optional<Response> refusal = without_resource(request, caller.owner.has_value());
+  request.owner = caller.access.owner.value_or("");
+  request.job_key_sha256 = is_public(request) ? "" : caller.access.job_key_sha256;
+  std::optional<Response> refusal = without_resource(request, caller.access);
   if (refusal) {
     complete(request, *refusal, start);
   }

@@ -31,8 +31,7 @@ enum class Answers { all, state };
 
 /// Who asks.
 struct Caller {
-  std::optional<std::string>
-      owner;  ///< whose key the request has; empty: no known key; "": the service asks for none
+  Access access;
   /// The owner, or the address where there is no known key: what clients share is bounded for each party.
   std::string party;
 };
@@ -62,14 +61,14 @@ class Gateway {
   [[nodiscard]] static bool answers_at_once(const Request& request);
   [[nodiscard]] Caller caller_of(const Request& request) const;
   /// Returns the refusal of a request by its head, whether or not its body has arrived; nullopt when its body
-  /// is wanted. Sets the request's id and owner.
+  /// is wanted. Sets the request's id and owner, and its key of a job.
   [[nodiscard]] std::optional<Response> refused_by_head(Request& request, const Caller& caller);
   /// Returns the response to a request that was refused while its bytes were read; `head` has what was read.
   [[nodiscard]] Response refuse(const Head& head, const std::string& remote);
 
  private:
   /// Returns a response that needs no resource, such as a refusal or a preflight; nullopt for other requests.
-  [[nodiscard]] std::optional<Response> without_resource(const Request& request, bool known) const;
+  [[nodiscard]] std::optional<Response> without_resource(const Request& request, const Access& access) const;
   Response guarded(const Request& request, const std::function<Response()>& work) const;
   Response finish(const std::shared_ptr<Request>& request, Response response, double start);
   void complete(const Request& request, Response& response, double start);

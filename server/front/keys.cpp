@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "server/digest.h"
+#include "server/resources/job_key.h"
 
 namespace snapthrough::server::http {
 
@@ -29,23 +30,35 @@ std::optional<std::string_view> key_of(const Request& request) {
 
 }  // namespace
 
-std::optional<std::string> KeyRing::owner(const Request& request) const {
+Access KeyRing::access(const Request& request, Time now) const {
+  Access access;
   if (open()) {
-    return "";
+    access.owner = "";
+    access.scopes = Scopes::all();
+    return access;
   }
   const std::optional<std::string_view> given = key_of(request);
   if (!given) {
-    return std::nullopt;
+    return access;
   }
-  const std::string digest = sha256_hex(trimmed(*given));
-  std::optional<std::string> owner;
+  const std::string_view key = trimmed(*given);
+  const std::string digest = sha256_hex(key);
   const std::shared_lock guard(mutex_);
-  for (const ApiKey& key : keys_) {  // compares all keys, so that the time reveals nothing
-    if (equal_in_constant_time(key.sha256, digest)) {
-      owner = key.owner;
+  const ApiKey* known = nullptr;
+  for (const ApiKey& one : keys_) {  // compares all keys, so that the time reveals nothing
+    if (equal_in_constant_time(one.sha256, digest)) {
+      known = &one;
     }
   }
-  return owner;
+  if (known == nullptr) {
+    access.job_key_sha256 = is_job_key(key) ? digest : "";
+  } else if (known->expires && now >= *known->expires) {
+    access.expired = known->expires;
+  } else {
+    access.owner = known->owner;
+    access.scopes = known->scopes;
+  }
+  return access;
 }
 
 }  // namespace snapthrough::server::http

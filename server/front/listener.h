@@ -3,6 +3,7 @@
 /// Sockets of the service: a silent or slow client does not occupy a thread.
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -20,7 +21,9 @@ struct ClientTimes {
   std::chrono::milliseconds send{30'000};     ///< for a client to take some bytes of a response
   std::chrono::milliseconds ping{15'000};     ///< between comments on a stream without events
   std::chrono::milliseconds reading{10'000};  ///< processor time to read and check what was sent
+  std::chrono::milliseconds thread{5'000};    ///< for a thread, until the service is not ready
   std::chrono::milliseconds drain{2'000};     ///< for requests and responses under way when the service stops
+  std::chrono::milliseconds settle{500};      ///< to a request when the service stops, from the last response
 };
 
 /// Options of a listener.
@@ -34,11 +37,15 @@ struct ListenerOptions {
   ClientTimes times;
 };
 
-/// Open connections and their memory.
+/// Open connections and their memory. Large bodies, which are worked on one at a time, do not count in
+/// `longest_wait`.
 struct ListenerLoad {
   int connections = 0;
   int streams = 0;
   std::size_t buffered_bytes = 0;  ///< bytes of incomplete requests and of responses that are being sent
+  /// Longest time for which complete requests of a party have waited because other parties have all threads.
+  std::chrono::steady_clock::duration longest_wait{0};
+  std::int64_t without_memory = 0;  ///< connections that ended because there was no memory for them
 };
 
 /// @brief Accepts connections and serves their requests through a gateway, which must outlive the listener.
@@ -61,8 +68,12 @@ class Listener {
   /// Returns the port after start().
   [[nodiscard]] int port() const;
   [[nodiscard]] ListenerLoad load() const;
+  /// Announces a stop: from now on each response closes its connection (`Connection: close`), so that clients
+  /// find few open ones when the listener stops.
+  void begin_drain();
   /// Stops accepting, completes requests in flight, closes idle connections, then returns. May be called
-  /// repeatedly.
+  /// repeatedly. A request that arrives within `settle` of the last response on its connection, or of its
+  /// opening, is answered.
   void stop();
 
  private:

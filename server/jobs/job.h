@@ -2,6 +2,7 @@
 /// @file
 /// Jobs as data: what is handed in, stored, claimed and returned.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,6 +34,20 @@ struct Quotas {
   }
 };
 
+/// Resources that computing took, of all attempts that came to an outcome.
+struct WorkUsage {
+  std::int64_t cpu_us = 0;          ///< processor time in microseconds
+  std::int64_t peak_bytes = 0;      ///< largest memory use; 0: unknown
+  std::int64_t factorizations = 0;  ///< number of factorisations of the tangent stiffness that were counted
+
+  void add(const WorkUsage& more) {
+    cpu_us += more.cpu_us;
+    peak_bytes = std::max(peak_bytes, more.peak_bytes);
+    factorizations += more.factorizations;
+  }
+  bool operator==(const WorkUsage&) const = default;
+};
+
 /// What a client adds to a job or sweep; annotations do not change what is computed.
 struct Annotations {
   std::string label;          ///< empty: none
@@ -57,6 +72,9 @@ struct Job {
   std::optional<Time> finished;       ///< set exactly in a final state
   std::optional<JobFailure> failure;  ///< set exactly when failed; list() leaves `reached` empty
   Annotations annotations;
+  std::string request_sha256;  ///< api::request_digest(); empty: an earlier version stored the job
+  std::string program;  ///< api::program_text() of the process that computed the outcome; empty: none did
+  std::optional<WorkUsage> usage;  ///< what computing took; empty: nothing was computed
 };
 
 /// Idempotency key: a later submission with the same key and document is the same job or sweep.
@@ -92,8 +110,9 @@ struct NewJob {
   Quotas quotas = {};    ///< bounds of the owner
   std::optional<Lease> lease = {};  ///< set: a worker has the job already, which begins running
   Annotations annotations = {};
-  int attempt = 0;  ///< earlier claims, in another store; a lease is one more
-  int crashes = 0;  ///< earlier claims that ended with the death of their process
+  int attempt = 0;                  ///< earlier claims, in another store; a lease is one more
+  int crashes = 0;                  ///< earlier claims that ended with the death of their process
+  std::string request_sha256 = {};  ///< see Job
 };
 
 /// Outcome of a submission to a store.

@@ -28,11 +28,13 @@ struct JobLimits {
   std::chrono::seconds keep_jobs{30 *
                                  86400};  ///< time that jobs and sweeps are kept after their end; 0: for ever
   std::chrono::seconds keep_keys{86400};  ///< time that idempotency keys are kept
-  int sweeps = 1000;                      ///< unfinished sweeps, >= 1
-  int sweep_points = 100'000;             ///< points of one sweep, 1 to api::kMaxSweepPoints
-  int table_rows = 250'000;               ///< rows in one response, >= 1
-  std::size_t json_keys = 300'000;        ///< keys in a document, >= 1
-  Quotas quotas;                          ///< bounds of each owner
+  std::chrono::seconds keep_records{90 *
+                                    86400};  ///< time that usage and events of owners are kept; 0: for ever
+  int sweeps = 1000;                         ///< unfinished sweeps, >= 1
+  int sweep_points = 100'000;                ///< points of one sweep, 1 to api::kMaxSweepPoints
+  int table_rows = 250'000;                  ///< rows in one response, >= 1
+  std::size_t json_keys = 300'000;           ///< keys in a document, >= 1
+  Quotas quotas;                             ///< bounds of each owner
   std::vector<std::string>
       callback_hosts;  ///< hosts that callbacks may have, `host[:port]`; see jobs/callback.h
 };
@@ -47,22 +49,9 @@ struct StoreHealth {
 
   /// @brief Takes room for a document; `unavailable` when there is none. Many documents can arrive between
   /// two looks at the disk.
-  [[nodiscard]] Status take_room(std::size_t document) {
-    // the write-ahead log has it before the file has it, and a result comes, too
-    const std::int64_t bytes = 3 * static_cast<std::int64_t>(document);
-    if (room.fetch_sub(bytes) >= bytes) {
-      return {};
-    }
-    room += bytes;
-    return {StatusCode::unavailable, "the disk has no room for this document at the moment"};
-  }
+  [[nodiscard]] Status take_room(std::size_t document);
   /// Ok when the service takes new work; else `stopping` or `unavailable`.
-  [[nodiscard]] Status takes_work() const {
-    if (draining) {
-      return {StatusCode::stopping, "The service is stopping."};
-    }
-    return has_space ? Status() : Status(StatusCode::unavailable, "the disk is full");
-  }
+  [[nodiscard]] Status takes_work() const;
 };
 
 }  // namespace snapthrough::server

@@ -32,6 +32,9 @@ struct SweepRecord {
   std::optional<Time> started;
   std::optional<Time> finished;  ///< set exactly in a final state
   Annotations annotations;
+  std::string request_sha256;      ///< digest of the sweep document, see Job
+  std::string program;             ///< see Job; of several programs, one of them
+  std::optional<WorkUsage> usage;  ///< sum over its points; empty: nothing was computed
 
   [[nodiscard]] std::int64_t done() const { return successful + failed; }
 };
@@ -50,6 +53,7 @@ struct NewSweep {
   std::string analysis_type = {};
   Annotations annotations = {};
   Quotas quotas = {};  ///< bounds of the owner
+  std::string request_sha256 = {};
 };
 
 /// Row of the table of a sweep.

@@ -67,4 +67,36 @@ void Log::write(LogLevel level, std::string_view event, std::initializer_list<Lo
   sink_->logger.log(row.spdlog_level, line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
+void Log::is_away(std::string_view what, std::string_view detail) {
+  {
+    const std::lock_guard guard(mutex_);
+    if (++away_[std::string(what)] > 1) {
+      return;
+    }
+  }
+  write(LogLevel::error, what, {{"detail", detail}});
+}
+
+void Log::is_back(std::string_view what) {
+  std::int64_t count = 0;
+  {
+    const std::lock_guard guard(mutex_);
+    const auto away = away_.find(what);
+    if (away == away_.end()) {
+      return;
+    }
+    count = away->second;
+    away_.erase(away);
+  }
+  write(LogLevel::info, what, {{"detail", std::string_view("can be used again")}, {"failures", count}});
+}
+
+void log_store_trouble(Log& log, const Status& status) {
+  if (status.code() == StatusCode::unavailable) {
+    log.is_away("store", status.message());
+  } else {
+    log.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
+  }
+}
+
 }  // namespace snapthrough::server

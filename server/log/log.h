@@ -5,12 +5,16 @@
 #include <cstdint>
 #include <initializer_list>
 #include <iosfwd>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
 #include "server/environment.h"
+#include "server/status.h"
 
 namespace snapthrough::server {
 
@@ -42,10 +46,21 @@ class Log {
 
   void write(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
 
+  /// Writes an error line that something cannot be used, unless one was written since it last could.
+  /// @param what name of the event @param detail cause
+  void is_away(std::string_view what, std::string_view detail);
+  /// Writes that it can be used again, and how often is_away() was called; nothing if that was never.
+  void is_back(std::string_view what);
+
  private:
   struct Sink;
   std::unique_ptr<Sink> sink_;
   std::function<Time()> now_;
+  std::mutex mutex_;
+  std::map<std::string, std::int64_t, std::less<>> away_;  ///< calls of is_away() by what cannot be used
 };
+
+/// Writes that the store failed: what keeps it from being used (`unavailable`) once, see Log::is_away().
+void log_store_trouble(Log& log, const Status& status);
 
 }  // namespace snapthrough::server

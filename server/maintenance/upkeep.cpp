@@ -1,5 +1,6 @@
 #include "server/maintenance/upkeep.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -33,46 +34,78 @@ void log_recovery(Log& log, const Recovery& recovery, std::string_view why) {
   }
 }
 
-void Upkeep::run_once(Time now) {
+void Upkeep::run_once() {
+  const Time now = context_.environment.now();
+  const Time steady = steady_time(context_.environment);
+  look_at_clocks(now, steady);
   look_at_disk(now);
-  context_.active.stop_older(now - context_.limits.longest_run, StopReason::time_limit);
-  context_.sweeps.stop_older(now - context_.limits.longest_run);
-  const bool shared = context_.store.neighbours() != nullptr;
-  if (const auto quarter = std::chrono::milliseconds(context_.limits.lease) / 4;
-      shared || now >= next_renewal_) {
-    // A shared store is asked each time, which shows claims dismissed by other processes.
-    next_renewal_ = now + quarter;
-    renew_leases(shared ? now : now - quarter / 2, now);
-  }
-  if (now >= next_rescue_) {
-    next_rescue_ = now + context_.limits.lease / 4;
-    rescue(now);
-    context_.sweeps.rescue(now);
-  }
-  if (now >= next_retirement_) {
-    next_retirement_ = now + kBetweenRetirements;
-    retire(now);
-    retire_sweeps(now);
+  context_.active.stop_older(steady - context_.limits.longest_run, StopReason::time_limit);
+  context_.sweeps.stop_older(steady - context_.limits.longest_run);
+  keep_leases(now, steady);
+  if (steady >= next_retirement_) {
+    next_retirement_ = steady + kBetweenRetirements;
+    // The earlier of two clocks decides: neither a clock that was set forward nor one that was set back after
+    // it was ahead makes ended work older than it is.
+    const Time kept = std::min(now, started_ + (steady - started_steady_));
+    retire(kept);
+    retire_sweeps(kept);
     count_waiting();
   }
 }
 
-/// Renews the leases of jobs and units held since before `since`.
-void Upkeep::renew_leases(Time since, Time now) {
-  context_.sweeps.renew_leases(since, now);
+/// Notes by how much the wall clock was set since the last look.
+void Upkeep::look_at_clocks(Time now, Time steady) {
+  const auto moved = (now - now_) - (steady - steady_);
+  now_ = now;
+  steady_ = steady;
+  if (std::chrono::abs(moved) > std::chrono::milliseconds(context_.limits.lease) / 4) {
+    moved_ += moved;
+    context_.log.write(LogLevel::warning, "clock",
+                       {{"seconds", std::chrono::duration<double>(moved).count()},
+                        {"detail", std::string_view("the clock of the system was set by so much")}});
+  }
+}
+
+/// Renews leases, and takes back work whose leases have run out. After the clock was set, all leases are
+/// renewed first, as of the clock before, by which they hold.
+void Upkeep::keep_leases(Time now, Time steady) {
+  const bool shared = context_.store.neighbours() != nullptr;
+  const auto quarter = std::chrono::milliseconds(context_.limits.lease) / 4;
+  if (moved_ != moved_.zero()) {
+    if (!renew_leases(Time::max(), now + context_.limits.lease, now - moved_)) {
+      return;
+    }
+    moved_ = moved_.zero();
+    next_renewal_ = steady + quarter;
+  } else if (shared || steady >= next_renewal_) {
+    // A shared store is asked each time, which shows claims dismissed by other processes.
+    next_renewal_ = steady + quarter;
+    renew_leases(shared ? steady : steady - quarter / 2, now + context_.limits.lease, now);
+  }
+  if (steady >= next_rescue_) {
+    next_rescue_ = steady + quarter;
+    rescue(now);
+    context_.sweeps.rescue(now);
+  }
+}
+
+/// Renews the leases of jobs and units held since before `since` (steady_time()) that have not run out at
+/// `now`. Returns whether the store did it.
+bool Upkeep::renew_leases(Time since, Time until, Time now) {
+  const bool units = context_.sweeps.renew_leases(since, until, now);
   const std::vector<Claim> held = context_.active.older(since);
   if (held.empty()) {
-    return;
+    return units;
   }
-  const StatusOr<std::vector<std::string>> lost =
-      context_.store.renew(held, now + context_.limits.lease, now);
+  const StatusOr<std::vector<std::string>> lost = context_.store.renew(held, until, now);
   if (!lost.ok()) {
-    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(lost.status().message())}});
-    return;
+    log_store_trouble(context_.log, lost.status());
+    return false;
   }
   for (const std::string& id : *lost) {
     context_.active.stop(id, StopReason::lease_lost);
   }
+  return units;
 }
 
 void Upkeep::rescue(Time now) {
@@ -98,18 +131,24 @@ void Upkeep::look_at_disk(Time now) {
   const bool before = health.writable && health.has_space;
   const Status probe = context_.store.probe(now);
   health.writable = probe.ok();
-  health.has_space = probe.ok();
-  if (guard_) {
-    const StatusOr<std::uint64_t> reusable = context_.store.give_back_space();
-    const std::uint64_t unused = reusable.ok() ? *reusable : 0;
-    health.has_space = guard_->check(probe.ok(), unused);
-    health.room = static_cast<std::int64_t>(guard_->room(unused));
+  if (probe.ok()) {
+    context_.log.is_back("store");
   }
+  if (!guard_) {  // a store that is no file: its disk is not ours
+    if (!probe.ok()) {
+      log_store_trouble(context_.log, probe);
+    }
+    return;
+  }
+  const StatusOr<std::uint64_t> reusable = context_.store.give_back_space();
+  const std::uint64_t unused = reusable.ok() ? *reusable : 0;
+  health.has_space = guard_->check(probe.ok(), unused);
+  health.room = static_cast<std::int64_t>(guard_->room(unused));
   if (const bool after = health.writable && health.has_space; after != before) {
     context_.log.write(after ? LogLevel::info : LogLevel::error, "disk",
                        {{"writable", health.writable.load()},
                         {"has_space", health.has_space.load()},
-                        {"free_bytes", static_cast<std::int64_t>(guard_ ? guard_->free_bytes() : 0)},
+                        {"free_bytes", static_cast<std::int64_t>(guard_->free_bytes())},
                         {"detail", std::string_view(probe.message())}});
   }
 }
@@ -127,8 +166,12 @@ void Upkeep::retire(Time now) {
       context_.log.write(LogLevel::info, "retired", {{"jobs", static_cast<std::int64_t>(total)}});
     }
   }
+  StatusOr<bool> more = limits.keep_records.count() > 0;
+  for (int i = 0; i < kRetirementsAtOnce && more.ok() && *more; ++i) {
+    more = context_.store.ledger().forget(limits.keep_records, kRetiredAtOnce, now);
+  }
   if (const Status status = context_.store.forget_keys(limits.keep_keys, now); !status.ok()) {
-    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
+    log_store_trouble(context_.log, status);
   }
 }
 
@@ -147,7 +190,7 @@ void Upkeep::retire_sweeps(Time now) {
     more = store.purge(kPurgedRows);
   }
   if (const Status status = store.forget_keys(limits.keep_keys, now); !status.ok()) {
-    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
+    log_store_trouble(context_.log, status);
   }
 }
 
@@ -155,10 +198,10 @@ void Upkeep::count_waiting() {
   context_.waiting.recount([this] { return context_.store.waiting(); });
 }
 
-UpkeepThread::UpkeepThread(Upkeep& upkeep, const Environment& environment)
-    : thread_([&upkeep, &environment](const std::stop_token& stop) {
+UpkeepThread::UpkeepThread(Upkeep& upkeep)
+    : thread_([&upkeep](const std::stop_token& stop) {
         while (!stop.stop_requested()) {
-          upkeep.run_once(environment.now());
+          upkeep.run_once();
           pause(stop, kPause);
         }
       }) {}

@@ -4,6 +4,8 @@
 
 #include "api/api.h"
 #include "api/names.h"
+#include "api/provenance.h"
+#include "server/digest.h"
 #include "server/jobs/content_key.h"
 #include "server/jobs/envelope.h"
 #include "server/jobs/memory.h"
@@ -21,7 +23,9 @@ NewJob new_job(const Order& order, const api::Request& request, const Envelope& 
   job.document = envelope.text;
   job.created = world.now();
   job.owner = order.owner;
-  job.content_key = content_key(*request.document);
+  const std::string canonical = api::canonical_text(*request.document);
+  job.content_key = content_key(canonical);
+  job.request_sha256 = sha256_hex(canonical);
   job.reuse =
       order.reuse && order.idempotency_key.has_value();  // without a key submit() looks for a result first
   job.idempotency = key_of(order);
@@ -210,7 +214,7 @@ Status JobService::remove(const std::string& id) {
   if (const StatusOr<Dismissal> dismissal = dismiss(id); !dismissal.ok()) {
     return dismissal.status();
   }
-  const StatusOr<bool> removed = store_.remove(id);
+  const StatusOr<bool> removed = store_.remove(id, environment_.now());
   if (removed.ok() && *removed) {
     log_.write(LogLevel::info, "job",
                {{"job", std::string_view(id)}, {"status", std::string_view("removed")}});

@@ -1,5 +1,6 @@
 #include "server/queue/pool.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -73,7 +74,8 @@ void log_job_end(Log& log, const Claim& claim, const JobRun& outcome) {
       {{"job", std::string_view(claim.id)},
        {"status", to_string(failed ? JobState::failed : JobState::successful)},
        {"attempt", static_cast<std::int64_t>(claim.attempt)},
-       {"peak_bytes", outcome.peak_bytes},
+       {"peak_bytes", outcome.usage.peak_bytes},
+       {"cpu_seconds", static_cast<double>(outcome.usage.cpu_us) * 1e-6},
        {"code", std::string_view(failed ? outcome.failure->code : outcome.result->summary.termination)},
        {"detail", std::string_view(failed ? outcome.failure->detail : outcome.result->summary.message)}});
 }
@@ -88,16 +90,16 @@ void log_trouble(Log& log, const Claim& claim, const Status& status) {
 Status store_once(const Claim& claim, JobRun& outcome, const WorkerContext& context) {
   const Time now = context.environment.now();
   if (!outcome.result) {
-    return context.store.fail(claim, *outcome.failure, outcome.reached, now);
+    return context.store.fail(claim, *outcome.failure, outcome.reached, outcome.usage, now);
   }
-  Status status = context.store.finish(claim, *outcome.result, now);
+  Status status = context.store.finish(claim, *outcome.result, outcome.usage, now);
   if (status.code() != StatusCode::io_error) {
     return status;
   }
   // A result with a number that is not finite cannot be stored; the job then fails instead of staying open.
   outcome.result.reset();
   outcome.failure = JobFailure{"not_stored", "the result could not be stored: " + status.message(), ""};
-  return context.store.fail(claim, *outcome.failure, {}, now);
+  return context.store.fail(claim, *outcome.failure, {}, outcome.usage, now);
 }
 
 /// Stores the outcome. Repeats while the store is not writable, until the claim is lost or the service stops;
@@ -154,10 +156,12 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
              Runner& runner, const std::stop_token& stop) {
   log_job(context.log, claim, JobState::running);
   if (claim.attempt == 1) {
-    context.metrics.waiting.observe(duration<double>(context.environment.now() - claim.created).count());
+    // the wall clock may have been set back since
+    const duration<double> waited = context.environment.now() - claim.created;
+    context.metrics.waiting.observe(std::max(0.0, waited.count()));
   }
   const double begun = context.environment.monotonic_seconds();
-  ActiveJobs::Entry entry(context.active, claim, context.environment.now());
+  ActiveJobs::Entry entry(context.active, claim, steady_time(context.environment));
   const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
   JobRun outcome = runner.run_job(claim.document, told_hooks(claim, context.progress, entry.token()));
   context.progress.erase(claim.id);
@@ -185,7 +189,7 @@ std::optional<Claim> claim_one(const WorkerContext& context) {
   WaitingCount::Change change(context.waiting);
   StatusOr<std::optional<Claim>> claim = context.store.claim(context.new_lease(), context.environment.now());
   if (!claim.ok()) {
-    context.log.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
+    log_store_trouble(context.log, claim.status());
     return std::nullopt;
   }
   if (claim->has_value()) {

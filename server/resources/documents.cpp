@@ -7,6 +7,7 @@
 
 #include "api/api.h"
 #include "server/resources/hops/protocol.h"
+#include "server/resources/records.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -36,6 +37,14 @@ void add_annotations(const Annotations& annotations, ordered_json& status) {
   if (!annotations.callback.empty()) {
     status["callback"] = annotations.callback;
   }
+}
+
+/// Adds what made the outcome and what that took, null where it is not known.
+void add_provenance(const std::string& program, const std::string& request_sha256,
+                    const std::optional<WorkUsage>& usage, ordered_json& status) {
+  status["program"] = program.empty() ? ordered_json() : ordered_json::parse(program);
+  status["request_sha256"] = request_sha256.empty() ? ordered_json() : ordered_json(request_sha256);
+  status["usage"] = usage ? work_json(*usage) : ordered_json();
 }
 
 std::string status_message(const Job& job, const std::optional<Progress>& progress) {
@@ -70,6 +79,7 @@ ordered_json job_status(const Job& job, const std::optional<Progress>& progress)
   }
   ordered_json status{
       {"id", job.id},
+      {"kind", "job"},
       {"status", to_string(job.state)},
       // The length of an equilibrium path is unknown before its end; the message gives the current point.
       {"progress", is_final(job.state) ? 100 : 0},
@@ -80,6 +90,7 @@ ordered_json job_status(const Job& job, const std::optional<Progress>& progress)
       {"created", rfc3339(job.created)},
       {"started", optional_time(job.started)},
       {"finished", optional_time(job.finished)}};
+  add_provenance(job.program, job.request_sha256, job.usage, status);
   add_annotations(job.annotations, status);
   if (job.failure) {
     status["error"] = {{"code", job.failure->code}, {"detail", job.failure->detail}};
@@ -109,6 +120,7 @@ std::string sweep_message(const SweepRecord& sweep) {
 ordered_json sweep_status(const SweepRecord& sweep) {
   const std::string path = sweep_path(sweep.id);
   ordered_json status{{"id", sweep.id},
+                      {"kind", "sweep"},
                       {"status", to_string(sweep.state)},
                       {"progress", 100 * sweep.done() / std::max<std::int64_t>(sweep.points, 1)},
                       {"message", sweep_message(sweep)},
@@ -119,6 +131,7 @@ ordered_json sweep_status(const SweepRecord& sweep) {
                       {"created", rfc3339(sweep.created)},
                       {"started", optional_time(sweep.started)},
                       {"finished", optional_time(sweep.finished)}};
+  add_provenance(sweep.program, sweep.request_sha256, sweep.usage, status);
   add_annotations(sweep.annotations, status);
   status["links"] = ordered_json::array(
       {link("self", path), link("request", path + "/request"), link("table", path + "/table")});

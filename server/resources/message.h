@@ -28,6 +28,9 @@ struct Request {
   std::string id;              ///< identifies the request in logs and problems
   std::string remote;          ///< address of the peer
   std::string owner;           ///< owner of the request's key; empty: the service has no keys
+  /// Digest of the key of a job that the request presents. The owner is known when the store has compared
+  /// it. Empty: the request has another key, or none.
+  std::string job_key_sha256;
 
   /// Returns the first header with a name; nullopt when absent.
   [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;

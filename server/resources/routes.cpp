@@ -31,9 +31,20 @@ bool matches(std::string_view pattern, std::string_view path, Segments& found) {
   return pattern.empty() && path.empty();
 }
 
+/// Whether a pattern has the id of a job or sweep.
+bool names_work(std::string_view pattern) {
+  return pattern.starts_with("/v1/jobs/{id}") || pattern.starts_with("/v1/sweeps/{id}");
+}
+
 /// Whether an id cannot be that of a job or sweep: a store is not asked for it, whatever bytes it has.
 bool names_nothing(std::string_view pattern, std::string_view id) {
-  return (pattern.starts_with("/v1/jobs/{id}") || pattern.starts_with("/v1/sweeps/{id}")) && !is_id(id);
+  return names_work(pattern) && !is_id(id);
+}
+
+/// Whether an operation adds work, which quotas bound.
+bool hands_in(std::string_view method, std::string_view pattern) {
+  return method == "POST" && (pattern == "/v1/jobs" || pattern == "/v1/sweeps" ||
+                              pattern.ends_with("/retry") || pattern.ends_with("/job"));
 }
 
 }  // namespace
@@ -119,6 +130,7 @@ const std::vector<Routes::Route>& Routes::table() {
       {"GET", "/v1/jobs/{id}/events", &Routes::job_events},
       {"POST", "/v1/jobs/{id}/dismiss", &Routes::dismiss_job},
       {"DELETE", "/v1/jobs/{id}", &Routes::delete_job},
+      {"POST", "/v1/jobs/{id}/key", &Routes::create_job_key},
       {"POST", "/v1/sweeps", &Routes::create_sweep},
       {"GET", "/v1/sweeps", &Routes::list_sweeps},
       {"GET", "/v1/sweeps/{id}", &Routes::sweep_status},
@@ -131,11 +143,15 @@ const std::vector<Routes::Route>& Routes::table() {
       {"POST", "/v1/sweeps/{id}/dismiss", &Routes::dismiss_sweep},
       {"POST", "/v1/sweeps/{id}/retry", &Routes::retry_sweep},
       {"DELETE", "/v1/sweeps/{id}", &Routes::delete_sweep},
+      {"GET", "/v1/usage", &Routes::usage},
+      {"GET", "/v1/audit", &Routes::audit},
       {"GET", "/v1/hops", &Routes::list_components},
       {"GET", "/v1/hops/{id}", &Routes::describe_component},
       {"POST", "/v1/hops/{id}", &Routes::solve_component},
       {"POST", "/solve", &Routes::solve},
       {"POST", "/v1/check", &Routes::check},
+      {"POST", "/v1/convert", &Routes::convert},
+      {"POST", "/v1/plot", &Routes::plot},
       {"GET", "/v1/limits", &Routes::limits},
       {"GET", "/v1/openapi.json", &Routes::openapi},
       {"GET", "/v1/examples", &Routes::examples},
@@ -146,16 +162,26 @@ const std::vector<Routes::Route>& Routes::table() {
   return routes;
 }
 
-Response Routes::respond(const Request& request) {
+Response Routes::respond(Request& request) {
   const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
   for (const Route& route : table()) {
     Segments found;
     if (method != route.method || !matches(route.pattern, request.path, found)) {
       continue;
     }
-    Response response = names_nothing(route.pattern, found.id) ? missing(request, route.pattern, found.id)
-                        : route.handler                        ? route.handler(*this, request, found.id)
+    std::optional<Response> refusal = names_nothing(route.pattern, found.id)
+                                          ? missing(request, route.pattern, found.id)
+                                          : admit_job_key(request, found.id);
+    const bool refused = refusal.has_value();
+    Response response = refused         ? *std::move(refusal)
+                        : route.handler ? route.handler(*this, request, found.id)
                                         : route.point_handler(*this, request, found.id, found.point);
+    if (!refused && names_work(route.pattern)) {
+      response = told_of_deletion(request, found.id, std::move(response));
+    }
+    if (hands_in(route.method, route.pattern)) {
+      tell_balance(request, response);
+    }
     response.route = route.pattern;
     return response;
   }

@@ -42,8 +42,9 @@ class Routes {
   Routes(JobService& jobs, WaitLimits waits, ServiceFacts facts = {})
       : jobs_(jobs), waits_(waits), facts_(std::move(facts)), components_(facts_.hops_folder) {}
 
-  /// Returns the response. Throws only for errors of the program or its environment (std::bad_alloc).
-  [[nodiscard]] Response respond(const Request& request);
+  /// Returns the response. Sets the owner of a request with the key of a job, see Request. Throws only for
+  /// errors of the program or its environment (std::bad_alloc).
+  [[nodiscard]] Response respond(Request& request);
 
   /// Returns the methods of the resource at a path, as a list; "" when there is none.
   [[nodiscard]] static std::string methods_at(std::string_view path);
@@ -77,6 +78,22 @@ class Routes {
   Response status_of_job(const Request& request, const std::string& id);
   Response result_of(const Request& request, const Job& job);
   Response table_of_result(const Request& request, const Job& job, api::ResultTable table);
+
+  // Defined in routes_keys.cpp.
+  /// Gives the job a key that reads it and nothing else, and answers with it: only its digest is kept. An
+  /// earlier key of the job ends.
+  Response create_job_key(const Request& request, const std::string& id);
+  /// Compares a request's key of a job with that of the job with an id, and sets the request's owner; returns
+  /// the refusal of another key. Requests without a key of a job are left alone.
+  std::optional<Response> admit_job_key(Request& request, const std::string& id);
+
+  // Defined in routes_records.cpp.
+  Response usage(const Request& request, const std::string& id);
+  Response audit(const Request& request, const std::string& id);
+  /// Adds what the owner has left of each quota.
+  void tell_balance(const Request& request, Response& response);
+  /// Returns 410 instead of a 404 for a job or sweep whose deletion is known; every other response as it is.
+  Response told_of_deletion(const Request& request, const std::string& id, Response missing);
 
   // Defined in routes_sweeps.cpp.
   Response create_sweep(const Request& request, const std::string& id);
@@ -114,6 +131,12 @@ class Routes {
   Response answer_call(const Request& request, const std::string& name,
                        const std::shared_ptr<const hops::Definition>& definition, const std::string& id);
 
+  // Defined in routes_tools.cpp.
+  /// Answers with parts of a model as JSON, made from a soil document, tables or a drawing.
+  Response convert(const Request& request, const std::string& id);
+  /// Answers with a figure of a result, a model or the table of a sweep as SVG.
+  Response plot(const Request& request, const std::string& id);
+
   // Defined in routes_service.cpp.
   Response check(const Request& request, const std::string& id);
   Response limits(const Request& request, const std::string& id);
@@ -133,6 +156,9 @@ class Routes {
 [[nodiscard]] Response json_response(int status, std::string body);
 [[nodiscard]] Response simple_problem(const Request& request, int status, const char* kind, const char* title,
                                       std::string detail);
+/// Returns a problem with status 401 and the WWW-Authenticate that belongs to it.
+[[nodiscard]] Response unauthorized(const Request& request, const char* kind, const char* title,
+                                    std::string detail);
 [[nodiscard]] Response store_trouble(const Request& request, const Status& status);
 [[nodiscard]] Response job_missing(const Request& request, const std::string& id);
 [[nodiscard]] Response sweep_missing(const Request& request, const std::string& id);

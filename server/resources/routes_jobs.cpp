@@ -8,6 +8,7 @@
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/prefer.h"
+#include "server/resources/records.h"
 #include "server/resources/routes.h"
 
 namespace snapthrough::server::http {
@@ -187,6 +188,7 @@ Response Routes::answer_of_post(const Request& request, const std::string& id, S
   if (response.status < 400 && !applied.empty()) {
     response.headers.emplace_back("Preference-Applied", applied);
   }
+  tell_balance(request, response);
   return response;
 }
 
@@ -281,6 +283,7 @@ Response Routes::result_of(const Request& request, const Job& job) {
     response.headers.emplace_back("ETag", etag);
     response.headers.emplace_back("Cache-Control", "private, max-age=86400, immutable");
     response.headers.emplace_back("Content-Location", job_path(job.id) + "/result");
+    add_provenance(job.program, job.request_sha256, response);
   }
   return response;
 }

@@ -2,12 +2,14 @@
 #include <utility>
 
 #include "api/names.h"
+#include "api/provenance.h"
 #include "api/sweep_table.h"
 #include "server/jobs/memory.h"
 #include "server/resources/body_sources.h"
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/prefer.h"
+#include "server/resources/records.h"
 #include "server/resources/routes.h"
 
 namespace snapthrough::server::http {
@@ -106,13 +108,15 @@ Response rows_of(const Request& request, SweepStore& store, const SweepRecord& r
     const std::string points = sweep_path(record.id) + "/points/{point}";
     links = {points + "/request", points + "/job"};
   }
-  StatusOr<Response> begun = begin_body(
-      table_source(store, record, api::TableWriter(*read.sweep, form, std::move(links)), query.points));
+  api::TableWriter writer(*read.sweep, form, std::move(links),
+                          api::provenance_members("table", record.program, record.request_sha256));
+  StatusOr<Response> begun = begin_body(table_source(store, record, std::move(writer), query.points));
   if (!begun.ok()) {
     return store_trouble(request, begun.status());
   }
   Response response = std::move(begun).value();
   response.content_type = content_type(form);
+  add_provenance(record.program, record.request_sha256, response);
   return response;
 }
 

@@ -11,12 +11,13 @@ const char* const kJobColumns =
     "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
     " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata, jobs.callback,"
     " (SELECT code FROM failures WHERE failures.job = jobs.seq),"
-    " (SELECT detail FROM failures WHERE failures.job = jobs.seq), jobs.content_key";
+    " (SELECT detail FROM failures WHERE failures.job = jobs.seq), jobs.content_key, jobs.request_sha256,"
+    " jobs.program, jobs.cpu_us, jobs.peak_bytes, jobs.factorizations";
 
 const char* const kSweepColumns =
     "sweeps.id, sweeps.status, sweeps.owner, sweeps.title, sweeps.points, sweeps.created_us,"
     " sweeps.started_us, sweeps.finished_us, sweeps.analysis_type, sweeps.label, sweeps.metadata,"
-    " sweeps.callback";
+    " sweeps.callback, sweeps.request_sha256";
 
 const char* const kBranchColumns =
     "branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio, fields";
@@ -115,7 +116,16 @@ Job read_job(const Row& row) {
     job.failure = JobFailure{row.text(13), row.text(14), ""};
   }
   job.content_key = row.text(15);
+  job.request_sha256 = row.text(16);
+  job.program = row.text(17);
+  job.usage = read_work_usage(row, 18);
   return job;
+}
+
+std::optional<WorkUsage> read_work_usage(const Row& row, int column) {
+  return row.is_null(column) ? std::nullopt
+                             : std::optional(WorkUsage{row.integer(column), row.integer(column + 1),
+                                                       row.integer(column + 2)});
 }
 
 SweepRecord read_sweep(const Row& row) {
@@ -130,6 +140,7 @@ SweepRecord read_sweep(const Row& row) {
   sweep.finished = row.optional_time(7);
   sweep.analysis_type = row.text(8);
   sweep.annotations = row.annotations(9);
+  sweep.request_sha256 = row.text(12);
   return sweep;
 }
 

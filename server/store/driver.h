@@ -92,12 +92,16 @@ class Row {
 
 /// Columns of read_job() for SELECT from `jobs`, and their number.
 extern const char* const kJobColumns;
-inline constexpr int kJobColumnCount = 16;
+inline constexpr int kJobColumnCount = 21;
 [[nodiscard]] Job read_job(const Row& row);
 
-/// Columns of read_sweep() for SELECT from `sweeps`, and their number. The counts of points are the driver's.
+/// Usage in three columns from `column` on; empty when nothing was computed.
+[[nodiscard]] std::optional<WorkUsage> read_work_usage(const Row& row, int column);
+
+/// Columns of read_sweep() for SELECT from `sweeps`, and their number. The counts of points, the
+/// program and the usage are the driver's.
 extern const char* const kSweepColumns;
-inline constexpr int kSweepColumnCount = 12;
+inline constexpr int kSweepColumnCount = 13;
 [[nodiscard]] SweepRecord read_sweep(const Row& row);
 
 /// @brief Outcome of a submission with a known idempotency key.

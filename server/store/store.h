@@ -14,6 +14,7 @@
 #include "server/jobs/job.h"
 #include "server/status.h"
 #include "server/store/delivery_store.h"
+#include "server/store/ledger_store.h"
 #include "server/store/list_query.h"
 #include "server/store/neighbour_store.h"
 #include "server/store/sweep_store.h"
@@ -88,10 +89,19 @@ class Store {
                                                    Time now) = 0;
 
   /// Stores the result with path and critical points, and makes the job successful.
-  virtual Status finish(const Claim& claim, const JobResult& result, Time now) = 0;
+  /// @param usage of computing it; counts for the owner (ledger())
+  virtual Status finish(const Claim& claim, const JobResult& result, const WorkUsage& usage, Time now) = 0;
+  Status finish(const Claim& claim, const JobResult& result, Time now) {
+    return finish(claim, result, {}, now);
+  }
 
-  /// Stores the reason and the path that was reached, if any, and makes the job failed.
-  virtual Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) = 0;
+  /// Stores the reason and the path that was reached, if any, and makes the job failed. @param usage as for
+  /// finish()
+  virtual Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached,
+                      const WorkUsage& usage, Time now) = 0;
+  Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) {
+    return fail(claim, failure, reached, {}, now);
+  }
 
   /// Gives a running job back to its place in the queue; that does not count as a crash.
   virtual Status requeue(const Claim& claim) = 0;
@@ -108,7 +118,15 @@ class Store {
   /// Dismisses an accepted or running job.
   virtual StatusOr<Dismissal> dismiss(std::string_view id, Time now) = 0;
   /// Removes a job in any state with all that belongs to it; false when there is none.
-  virtual StatusOr<bool> remove(std::string_view id) = 0;
+  /// @param noted time of the deletion, which is noted (ledger()); empty: it is not, since the job was
+  /// incomplete
+  virtual StatusOr<bool> remove(std::string_view id, std::optional<Time> noted) = 0;
+  StatusOr<bool> remove(std::string_view id) { return remove(id, std::nullopt); }
+  /// Gives a job a key, of which it gets the SHA-256, in the place of an earlier one; false when there is no
+  /// such job. The key goes with the job.
+  virtual StatusOr<bool> set_key(std::string_view id, std::string_view sha256) = 0;
+  /// Owner of the job of that id if its key has that SHA-256; empty for another key, and without such a job.
+  virtual StatusOr<std::optional<std::string>> owner_by_key(std::string_view id, std::string_view sha256) = 0;
   /// Removes at most `most` jobs that ended longer than `age` ago, the oldest first; returns their number.
   virtual StatusOr<int> retire(std::chrono::seconds age, int most, Time now) = 0;
   /// Removes idempotency keys that were first used longer than `age` ago.
@@ -144,6 +162,8 @@ class Store {
   /// The path of a successful or failed job; empty lists when there is none.
   virtual StatusOr<StoredPath> path(std::string_view id) = 0;
 
+  /// What owners used and did; it lives as long as this store.
+  virtual LedgerStore& ledger() = 0;
   /// The stored sweeps; they live as long as this store.
   virtual SweepStore& sweeps() = 0;
   /// The deliveries to callbacks; they live as long as this store.

@@ -67,7 +67,12 @@ class SweepStore {
   /// that has a row keeps it. The sweep ends when all points have a row. `conflict`, and nothing is stored,
   /// when the claim does not hold or the sweep is not running.
   /// @param rows rows of points of the units
-  virtual StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) = 0;
+  /// @param usage of computing them; counts for the owner (Store::ledger())
+  virtual StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows,
+                                    const WorkUsage& usage, Time now) = 0;
+  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) {
+    return put(claim, rows, {}, now);
+  }
   /// @brief Ends every claim, since its process is known to be gone (see Store::recover()): units are given
   /// out again; a unit that was claimed alone at crash number `max_crashes` gets rows with the code
   /// "crashed".
@@ -82,7 +87,9 @@ class SweepStore {
   /// `rate_quota` when its points would exceed a quota of its owner.
   virtual StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas, Time now) = 0;
   /// Hides the sweep from every other verb; purge() frees its space. False when there is none.
-  virtual StatusOr<bool> remove(std::string_view id) = 0;
+  /// @param noted see Store::remove()
+  virtual StatusOr<bool> remove(std::string_view id, std::optional<Time> noted) = 0;
+  StatusOr<bool> remove(std::string_view id) { return remove(id, std::nullopt); }
   /// Removes sweeps that ended longer than `age` ago; returns their number.
   virtual StatusOr<int> retire(std::chrono::seconds age, Time now) = 0;
   /// Frees the space of at most `most` rows of removed sweeps; true when there may be more.

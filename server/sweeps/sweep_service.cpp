@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/provenance.h"
+#include "server/digest.h"
 #include "server/jobs/envelope.h"
 #include "server/jobs/memory.h"
 #include "server/jobs/submission.h"
@@ -42,6 +44,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   sweep.quotas = world_.limits.quotas;
   sweep.analysis_type = read.sweep->analysis_type();
   sweep.annotations = envelope.annotations;
+  sweep.request_sha256 = sha256_hex(api::canonical_text(*envelope.document));
   const StatusOr<Submitted> submitted = world_.store.submit(sweep);
   if (!submitted.ok()) {
     if (submitted.status().code() == StatusCode::unavailable) {
@@ -87,7 +90,7 @@ Status SweepService::remove(const std::string& id) {
   if (const StatusOr<SweepChange> dismissal = dismiss(id); !dismissal.ok()) {
     return dismissal.status();
   }
-  const StatusOr<bool> removed = world_.store.remove(id);
+  const StatusOr<bool> removed = world_.store.remove(id, world_.environment.now());
   if (removed.ok() && *removed) {
     log_sweep(world_.log, id, "removed");
   }

@@ -38,6 +38,7 @@ struct Pending {
 struct Work {
   std::vector<PointRow> rows;    ///< rows of units that are done
   std::vector<Pending> pending;  ///< units that are neither computed nor found in the store
+  WorkUsage usage;               ///< what computing rows took
 };
 
 /// Units of a chunk that lack a row in the store. When the store can't be read, all units: a point that has a
@@ -131,10 +132,10 @@ std::size_t compute(const Chunk& chunk, double seconds, const SweepSurroundings&
     }
     add_rows(work.pending[next], std::move(outcomes), world, work.rows);
     ++next;
-    watch.begin(world.environment.now());
+    watch.begin(steady_time(world.environment));
   };
-  watch.begin(world.environment.now());
-  runner.run_units(
+  watch.begin(steady_time(world.environment));
+  work.usage = runner.run_units(
       {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, units, watch.token(), late, take});
   return next;
 }
@@ -156,15 +157,16 @@ StatusOr<SweepChange> SweepWork::dismiss(const std::string& id) {
   return change;
 }
 
-void SweepWork::renew_leases(Time since, Time now) {
+bool SweepWork::renew_leases(Time since, Time until, Time now) {
   const std::vector<UnitClaim> held = scheduler_.older(since);
   if (held.empty()) {
-    return;
+    return true;
   }
-  const StatusOr<std::vector<std::int64_t>> lost = world_.store.renew(held, now + world_.limits.lease, now);
+  const StatusOr<std::vector<std::int64_t>> lost = world_.store.renew(held, until, now);
   for (const std::int64_t number : lost.ok() ? *lost : std::vector<std::int64_t>()) {
     scheduler_.stop_claim(number, StopReason::lease_lost);
   }
+  return lost.ok();
 }
 
 void SweepWork::rescue(Time now) {
@@ -269,7 +271,7 @@ std::optional<Chunk> SweepWork::take() {
     } else if (claim.status().code() == StatusCode::conflict) {
       scheduler_.remove(turn->sweep);
     } else {
-      log_sweep(world_.log, id, "claim", claim.status().message());
+      log_store_trouble(world_.log, claim.status());
       return std::nullopt;
     }
   }
@@ -281,7 +283,7 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   if (!chunk) {
     return false;
   }
-  SweepScheduler::Watch watch(scheduler_, chunk->claim, world_.environment.now());
+  SweepScheduler::Watch watch(scheduler_, chunk->claim, steady_time(world_.environment));
   const std::stop_callback on_shutdown(stop, [&] { watch.stop(StopReason::shutdown); });
   const std::stop_callback on_dismissal(chunk->sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
   const double start = world_.environment.monotonic_seconds();
@@ -291,10 +293,10 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   const std::size_t computed = compute(*chunk, scheduler_.chunk_seconds(), world_, runner, watch, work);
   const double seconds = world_.environment.monotonic_seconds() - start;
   const std::uint64_t done = chunk->claim.units.count - (work.pending.size() - computed);
-  Status status = settle(*chunk, work.rows, done, seconds);
+  Status status = settle(*chunk, work.rows, work.usage, done, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
     pause(stop, kRetryPause);
-    status = settle(*chunk, work.rows, done, seconds);
+    status = settle(*chunk, work.rows, work.usage, done, seconds);
   }
   if (!status.ok() && status.code() != StatusCode::conflict) {
     world_.log.write(
@@ -304,15 +306,16 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   return true;
 }
 
-Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, std::uint64_t done,
-                         double seconds) {
+Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, const WorkUsage& usage,
+                         std::uint64_t done, double seconds) {
   const double start = world_.environment.monotonic_seconds();
-  StatusOr<SweepRecord> record = world_.store.put(chunk.claim, rows, world_.environment.now());
+  StatusOr<SweepRecord> record = world_.store.put(chunk.claim, rows, usage, world_.environment.now());
   if (record.ok()) {
     scheduler_.store_took(chunk.claim_seconds + world_.environment.monotonic_seconds() - start);
   }
   if (!record.ok() && record.status().code() == StatusCode::io_error) {
-    record = world_.store.put(chunk.claim, not_stored(rows, record.status()), world_.environment.now());
+    record =
+        world_.store.put(chunk.claim, not_stored(rows, record.status()), usage, world_.environment.now());
   }
   if (record.ok()) {
     scheduler_.give_back(chunk, done, seconds);

@@ -67,10 +67,11 @@ class SweepWork {
   void look_again();
   /// Dismisses the sweep and asks its workers to stop; its rows stay.
   StatusOr<SweepChange> dismiss(const std::string& id);
-  /// Stops units that began before `since`, for the time limit.
+  /// Stops units that began before `since` (steady_time()), for the time limit.
   void stop_older(Time since) { scheduler_.stop_older(since); }
-  /// Renews leases that are held since `since` or longer; asks workers whose lease was lost to stop.
-  void renew_leases(Time since, Time now);
+  /// @brief Renews, until `until`, leases that are held since `since` (steady_time()) or longer and have not
+  /// run out at `now`; asks workers whose lease was lost to stop. @return whether the store did it
+  bool renew_leases(Time since, Time until, Time now);
   /// Gives units out again whose lease has run out.
   void rescue(Time now);
   /// Number of sweeps in the scheduler.
@@ -84,7 +85,8 @@ class SweepWork {
   void leave(const std::string& id, const Finding& finding);
   std::optional<Chunk> take();
   /// Stores rows and ends the chunk. @param done units that need no more work
-  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, std::uint64_t done, double seconds);
+  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, const WorkUsage& usage,
+                std::uint64_t done, double seconds);
   void stored(const SweepRecord& record, const std::vector<PointRow>& rows);
 
   const SweepSurroundings world_;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -43,8 +44,11 @@ struct WebhookSurroundings {
   WebhookCounters& counters;
 };
 
-/// @brief Sends the deliveries of each origin in sequence on its own thread during its lifetime. A slow
-/// origin delays neither other origins nor the destructor.
+/// @brief Sends deliveries during its lifetime, those of each origin on threads of its own. A slow origin
+/// delays neither other origins nor the destructor.
+///
+/// Deliveries of one owner have half of an origin's threads at most. A thread that an owner's receiver has
+/// kept for a second or more takes a delivery of another owner next, if one is due.
 class Webhooks {
  public:
   /// @param key key that signs callbacks
@@ -57,14 +61,18 @@ class Webhooks {
   Webhooks& operator=(Webhooks&&) = delete;
 
  private:
+  struct Host;
   struct Sender;
   void send_due(Sender& sender, const std::stop_token& stop);
+  std::optional<Delivery> take(Sender& sender, const std::stop_token& stop);
+  StatusOr<std::optional<Delivery>> next(Sender& sender);
   bool deliver(Sender& sender, const Delivery& delivery, const std::stop_token& stop);
   bool settle(const Delivery& delivery, const PostOutcome& outcome);
   void note(const Delivery& delivery, LogLevel level, std::string_view outcome, const PostOutcome& post);
 
   const WebhookSurroundings world_;
   const std::string key_;
+  std::vector<std::unique_ptr<Host>> hosts_;
   std::vector<std::unique_ptr<Sender>> senders_;
   std::jthread watch_;  ///< thread that aborts late POST requests
 };

@@ -341,7 +341,8 @@ std::uint64_t ChildRunner::send_sweep(const UnitTask& task) {
   return number;
 }
 
-ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& told, bool at_once) {
+ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& told, bool at_once,
+                                            WorkUsage& usage) {
   if (!has_process(task.stop)) {
     return End::killed;
   }
@@ -357,7 +358,9 @@ ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& t
   std::vector<api::PointOutcome> outcomes;  // outcomes of an incomplete unit
   Watch watch{task.stop,
               [&](Frame& frame) {
-                for (RecordReader reader(frame.body); !reader.at_end();) {
+                const bool done = frame.type == FrameType::done;
+                RecordReader reader(frame.body);
+                while (!done && !reader.at_end()) {
                   if (told == task.units.size()) {
                     throw std::runtime_error("there are more outcomes than points");
                   }
@@ -367,7 +370,9 @@ ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& t
                     task.tell(std::exchange(outcomes, {}));
                   }
                 }
-                const bool done = frame.type == FrameType::done;
+                if (done) {
+                  usage.add(reader.get<WorkUsage>());
+                }
                 if (done && (!outcomes.empty() || (told == before && !task.stop.stop_requested()))) {
                   throw std::runtime_error("at least one unit is computed, and each wholly");
                 }
@@ -379,14 +384,15 @@ ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& t
 
 /// A process without memory first sends all outcomes, so that the next unit is the cause. A crashed process
 /// may not have sent all; a second attempt sends each at once. A single remaining unit is the cause.
-void ChildRunner::run_units(const UnitTask& task) {
+WorkUsage ChildRunner::run_units(const UnitTask& task) {
+  WorkUsage usage;
   int crashes = 0;
   bool at_once = task.units.size() == 1;
   for (std::size_t told = 0; told < task.units.size();) {
     const std::size_t before = told;
-    const End end = attempt_units(task, told, at_once);
+    const End end = attempt_units(task, told, at_once, usage);
     if (end == End::answered) {
-      return;
+      return usage;
     }
     crashes = (told == before ? crashes : 0) + (end == End::crashed ? 1 : 0);
     const bool sure = at_once || end != End::crashed;
@@ -398,9 +404,10 @@ void ChildRunner::run_units(const UnitTask& task) {
       crashes = 0;
     }
     if (task.stop.stop_requested()) {
-      return;
+      return usage;
     }
   }
+  return usage;
 }
 
 RunnerFactory child_runners(ChildRunnerOptions options, RunnerCounters& counters) {

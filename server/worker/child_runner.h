@@ -44,7 +44,7 @@ class ChildRunner final : public Runner {
   ~ChildRunner() override;
 
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
-  void run_units(const UnitTask& task) override;
+  WorkUsage run_units(const UnitTask& task) override;
 
   /// Returns the id of the process, for tests that damage it; 0: there is none.
   [[nodiscard]] pid_t process() const { return process_; }
@@ -68,7 +68,7 @@ class ChildRunner final : public Runner {
   static void pass_on(const Frame& news, const Hooks& hooks);
   [[nodiscard]] End end_of_process(bool killed);
   /// Computes the remaining units of a list, until the process has answered or ended.
-  [[nodiscard]] End attempt_units(const UnitTask& task, std::size_t& told, bool at_once);
+  [[nodiscard]] End attempt_units(const UnitTask& task, std::size_t& told, bool at_once, WorkUsage& usage);
   [[nodiscard]] JobFailure failure_of(End end, int crashes) const;
 
   const ChildRunnerOptions options_;

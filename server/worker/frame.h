@@ -20,7 +20,7 @@ enum class FrameType : std::uint32_t {
   news,      ///< body: progress, critical points and path points since the last news
   job_run,   ///< body: JobRun, the outcome of a job
   outcomes,  ///< body: outcomes of the points of units, in order
-  done       ///< end of a list of units
+  done       ///< body: WorkUsage; end of a list of units
 };
 
 struct Frame {

@@ -17,7 +17,7 @@ class LocalRunner final : public Runner {
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override {
     return solve_job(request, solve_, hooks);
   }
-  void run_units(const UnitTask& task) override { compute_units(task, solve_); }
+  WorkUsage run_units(const UnitTask& task) override { return compute_units(task, solve_); }
 
  private:
   const SolveFunction solve_;

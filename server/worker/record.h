@@ -51,7 +51,10 @@ template <>
 inline constexpr auto kMembers<StoredPath> = std::tuple{&StoredPath::branches, &StoredPath::critical_points};
 template <>
 inline constexpr auto kMembers<JobRun> =
-    std::tuple{&JobRun::result, &JobRun::failure, &JobRun::reached, &JobRun::peak_bytes};
+    std::tuple{&JobRun::result, &JobRun::failure, &JobRun::reached, &JobRun::usage};
+template <>
+inline constexpr auto kMembers<WorkUsage> =
+    std::tuple{&WorkUsage::cpu_us, &WorkUsage::peak_bytes, &WorkUsage::factorizations};
 template <>
 inline constexpr auto kMembers<api::PointOutcome> =
     std::tuple{&api::PointOutcome::outputs, &api::PointOutcome::code, &api::PointOutcome::detail};
@@ -60,7 +63,7 @@ template <class... Types>
 inline constexpr bool kAllAreSent =
     ((std::tuple_size_v<decltype(kMembers<Types>)> == api::member_count<Types>()) && ...);
 static_assert(kAllAreSent<NamedSeries, Progress, NamedValue, TracedPoint, JobResult, JobFailure, StoredPath,
-                          JobRun, api::PointOutcome>,
+                          JobRun, WorkUsage, api::PointOutcome>,
               "a member is missing in kMembers");
 
 /// Calls visit(pointer to member) for each member of T that is sent.

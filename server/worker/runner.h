@@ -22,8 +22,8 @@ namespace snapthrough::server {
 struct JobRun {
   std::optional<JobResult> result;
   std::optional<JobFailure> failure;
-  StoredPath reached = {};      ///< path up to the failure
-  std::int64_t peak_bytes = 0;  ///< largest memory use; 0: unknown
+  StoredPath reached = {};  ///< path up to the failure
+  WorkUsage usage = {};
 };
 
 /// Units of a sweep (server/worker/unit.h) that are computed in sequence.
@@ -54,7 +54,8 @@ class Runner {
   /// @param request submitted document of the job
   [[nodiscard]] virtual JobRun run_job(std::string_view request, const Hooks& hooks) = 0;
   /// Computes units; ends early when `enough` returns true, or after "cancelled" outcomes.
-  virtual void run_units(const UnitTask& task) = 0;
+  /// @return what that took; the part of a process that died is not known
+  virtual WorkUsage run_units(const UnitTask& task) = 0;
 };
 
 /// Called once by each worker, on the worker's thread.

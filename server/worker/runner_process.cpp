@@ -220,7 +220,7 @@ class RunnerProcess {
       if (run.failure && run.failure->code == kOutOfMemory) {
         end_without_memory();
       }
-      run.peak_bytes = memory_.peak();
+      run.usage.peak_bytes = memory_.peak();
       RecordWriter(body).put(run);
     }
     news.tell();
@@ -263,10 +263,13 @@ class RunnerProcess {
         }
       }
     };
-    compute_units({kNotNeeded, kNotNeeded, sweep, units, stop, [this] { return control_.enough(); }, tell},
-                  solve_);
+    WorkUsage usage = compute_units(
+        {kNotNeeded, kNotNeeded, sweep, units, stop, [this] { return control_.enough(); }, tell}, solve_);
     untold().tell();
-    answer(FrameType::done, "");
+    usage.peak_bytes = memory_.peak();
+    std::string body;
+    RecordWriter(body).put(usage);
+    answer(FrameType::done, body);
   }
 
   MemoryBound& memory_;

@@ -1,11 +1,13 @@
 #include "server/worker/solve_job.h"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "api/api.h"
 #include "api/sweep_unit.h"
+#include "server/worker/thread_time.h"
 
 namespace snapthrough::server {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 JobRun outcome_of(const api::Request& request, Result result, double seconds) {
   std::string document = api::write_result(request, result, seconds).dump();
   JobRun run;
+  run.usage.factorizations = std::max(0, result.diagnostics.factorizations);
   if (result.failure) {
     run.failure =
         JobFailure{std::move(result.failure->code), std::move(result.failure->detail), std::move(document)};
@@ -32,6 +35,7 @@ JobFailure mishap_now() {
 }
 
 JobRun solve_job(std::string_view request, const SolveFunction& solve, const Hooks& hooks) {
+  const ThreadTime time;
   try {
     const api::ReadOutcome read = api::read_request(request);
     if (!read.request) {
@@ -42,7 +46,9 @@ JobRun solve_job(std::string_view request, const SolveFunction& solve, const Hoo
     const auto start = std::chrono::steady_clock::now();
     Result result = solve(read.request->model, read.request->analysis, hooks);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    return outcome_of(*read.request, std::move(result), elapsed.count());
+    JobRun run = outcome_of(*read.request, std::move(result), elapsed.count());
+    run.usage.cpu_us = time.microseconds();
+    return run;
   } catch (...) {
     return {std::nullopt, mishap_now()};
   }

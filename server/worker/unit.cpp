@@ -1,11 +1,13 @@
 #include "server/worker/unit.h"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "api/sweep_unit.h"
 #include "server/jobs/content_key.h"
+#include "server/worker/thread_time.h"
 
 namespace snapthrough::server {
 
@@ -36,20 +38,29 @@ std::string SweepUnit::too_long(std::chrono::seconds longest) const {
                           : "the analysis took longer than " + std::to_string(longest.count()) + " s";
 }
 
-void compute_units(const UnitTask& task, const SolveFunction& solve) {
+WorkUsage compute_units(const UnitTask& task, const SolveFunction& solve) {
+  const ThreadTime time;
+  WorkUsage usage;
+  const SolveFunction counted = [&](const Model& model, const Analysis& analysis, const Hooks& hooks) {
+    Result result = solve(model, analysis, hooks);
+    usage.factorizations += std::max(0, result.diagnostics.factorizations);
+    return result;
+  };
   std::shared_ptr<nlohmann::json> document;
   for (std::size_t i = 0; i < task.units.size(); ++i) {
     if (task.stop.stop_requested() || (i > 0 && task.enough && task.enough())) {
-      return;
+      break;
     }
     std::vector<api::PointOutcome> outcomes =
-        SweepUnit(task.sweep, task.units[i]).compute(solve, {task.stop}, document);
+        SweepUnit(task.sweep, task.units[i]).compute(counted, {task.stop}, document);
     const bool stopped = api::is_cut_short(outcomes);
     task.tell(std::move(outcomes));
     if (stopped) {
-      return;
+      break;
     }
   }
+  usage.cpu_us = time.microseconds();
+  return usage;
 }
 
 }  // namespace snapthrough::server

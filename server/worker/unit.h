@@ -49,7 +49,8 @@ class SweepUnit {
 };
 
 /// Computes the units of a task one after the other on this thread and tells the outcomes of each. Ends early
-/// when `enough` says so or a stop is requested.
-void compute_units(const UnitTask& task, const SolveFunction& solve);
+/// when `enough` says so or a stop is requested. Returns processor time and factorizations; curves that are
+/// followed count none.
+WorkUsage compute_units(const UnitTask& task, const SolveFunction& solve);
 
 }  // namespace snapthrough::server

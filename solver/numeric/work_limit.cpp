@@ -12,14 +12,17 @@ thread_local WorkLimit* innermost = nullptr;
 
 }  // namespace
 
-WorkLimit::WorkLimit(std::function<bool()> is_over)
+WorkLimit::WorkLimit(std::function<std::optional<WorkEnd>()> is_over)
     : is_over_(std::move(is_over)), outer_(std::exchange(innermost, this)) {}
 
 WorkLimit::~WorkLimit() { innermost = outer_; }
 
 void WorkLimit::poll() {
-  if (innermost != nullptr && innermost->polls_++ % kPollsBetween == 0 && innermost->is_over_()) {
-    throw WorkEnded();
+  if (innermost == nullptr || innermost->polls_++ % kPollsBetween != 0) {
+    return;
+  }
+  if (const std::optional<WorkEnd> end = innermost->is_over_()) {
+    throw WorkEnded{*end};
   }
 }
 

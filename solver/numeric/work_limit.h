@@ -3,12 +3,22 @@
 /// Limit of the work that a caller waits for on its thread.
 
 #include <functional>
+#include <optional>
 
 namespace snapthrough {
 
+/// Why work ends before it is done.
+enum class WorkEnd {
+  time_used,  ///< the work takes longer than it may
+  abandoned,  ///< nobody waits for the work any more
+  stopping    ///< the program is about to end
+};
+
 /// Thrown by WorkLimit::poll() where the limit is reached. Not an std::exception, so that nothing takes it
 /// for a failure of its own.
-struct WorkEnded {};
+struct WorkEnded {
+  WorkEnd cause = WorkEnd::time_used;
+};
 
 /// @brief While it lives, loops of this thread whose length a document sets end when it is over.
 ///
@@ -16,8 +26,9 @@ struct WorkEnded {};
 /// Limits nest: the innermost one holds.
 class WorkLimit {
  public:
-  /// @param is_over whether the work is to end; called at some polls. It must not throw.
-  explicit WorkLimit(std::function<bool()> is_over);
+  /// @param is_over returns why the work is to end, nullopt while it may go on; called at some polls. It must
+  /// not throw.
+  explicit WorkLimit(std::function<std::optional<WorkEnd>()> is_over);
   ~WorkLimit();
   WorkLimit(const WorkLimit&) = delete;
   WorkLimit& operator=(const WorkLimit&) = delete;
@@ -29,7 +40,7 @@ class WorkLimit {
   static void poll();
 
  private:
-  std::function<bool()> is_over_;
+  std::function<std::optional<WorkEnd>()> is_over_;
   WorkLimit* outer_;
   unsigned polls_ = 0;
 };

@@ -29,8 +29,8 @@ TEST(FieldTable, HasRangesDefaultsAndAlternatives) {
               HasSubstr("\n| `model.monitors[].at.fraction` | number >= 0, <= 1 | fraction of the member's"));
   EXPECT_THAT(
       text,
-      HasSubstr(
-          "\n| `model.foundations[].range` ? | [number >= 0, < 1, number > 0, <= 1]; default `[0,1]` |"));
+      HasSubstr("\n| `model.foundations[].range` ? | [number >= 0, < 1, number > 0, <= 1] | fraction of the "
+                "member's undeformed length | Part of the member that it lies along. Default: [0, 1]. / "));
   EXPECT_THAT(
       text,
       HasSubstr(

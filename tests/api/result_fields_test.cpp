@@ -102,7 +102,8 @@ void check_value(const Schema& schema, std::set<std::string> null, const std::st
 
 /// Fields that documents have and tables do not.
 bool is_written_apart(const std::string& where, const std::string& name) {
-  return (where.empty() && name == "model") || (where == ".diagnostics" && name == "wall_time_s");
+  static const std::set<std::string> kOfResult{"kind", "program", "request_sha256", "model"};
+  return (where.empty() && kOfResult.contains(name)) || (where == ".diagnostics" && name == "wall_time_s");
 }
 
 template <class T>

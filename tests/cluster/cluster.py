@@ -18,6 +18,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 POSTGRESQL = max(pathlib.Path("/usr/lib/postgresql").glob("*/bin"), key=lambda path: int(path.parent.name))
+PATIENCE = 300  # s, the longest wait for what must come: a busy machine takes its time
 UNENDED = ("accepted", "running", "unknown")  # what Client.state() may say of what has not ended
 OWNERS = {"ann": "key-of-ann-0123456789", "bob": "key-of-bob-0123456789"}
 
@@ -165,15 +166,21 @@ class Host:
         self.start()
 
     def start(self):
+        """Returns when it takes requests or work."""
+        before = self._starts()  # the log has those of earlier processes, too
         self.process = subprocess.Popen(self.command, stdout=open(self.log, "a"), stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
-        deadline = time.time() + 20
+        deadline = time.time() + PATIENCE
         while time.time() < deadline:
             if self.process.poll() is not None:
                 raise RuntimeError(f"{self.name} ended: {self.log.read_text()[-500:]}")
-            if '"event":"listening"' in self.log.read_text() or '"event":"working"' in self.log.read_text():
+            if self._starts() > before:
                 return
             time.sleep(0.02)
         raise RuntimeError(f"{self.name} did not start")
+
+    def _starts(self):
+        text = self.log.read_text() if self.log.exists() else ""
+        return text.count('"event":"listening"') + text.count('"event":"working"')
 
     def signal(self, number):
         self.process.send_signal(number)
@@ -191,9 +198,10 @@ class Host:
             self.process.send_signal(signal.SIGCONT)
             self.process.terminate()
             try:
-                self.process.wait(20)
+                self.process.wait(PATIENCE)
             except subprocess.TimeoutExpired:
                 self.kill()
+                raise RuntimeError(f"{self.name} did not stop") from None
 
     def events(self, name):
         """What it logged under that name."""
@@ -215,7 +223,7 @@ class Client:
         self.owner = owner
         self.turn = random.randrange(len(hosts))
 
-    def ask(self, method, path, body=None, headers=None, tries=1, timeout=30):
+    def ask(self, method, path, body=None, headers=None, tries=1, timeout=120):
         """Status, body and headers; status 0 when nobody answered."""
         for attempt in range(tries):
             host = self.hosts[(self.turn + attempt) % len(self.hosts)]
@@ -237,7 +245,7 @@ class Client:
     def state(self, path):
         """The status of a job or a sweep: "gone" where it is not there, "unknown" where no front answers."""
         status, body, _ = self.ask("GET", path, tries=4)
-        return json.loads(body)["status"] if status == 200 else "gone" if status == 404 else "unknown"
+        return json.loads(body)["status"] if status == 200 else "gone" if status in (404, 410) else "unknown"
 
 
 def column(stiffness, elements=4, analysis="critical"):

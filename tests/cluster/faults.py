@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-from cluster import Client, Cluster, Load, Network, OWNERS, UNENDED, sweep, wait_for
+from cluster import Client, Cluster, Load, Network, OWNERS, PATIENCE, UNENDED, sweep, wait_for
 
 POINTS = 600
 
@@ -28,7 +28,8 @@ class Trial:
 
     def __init__(self, program, lease, surroundings):
         self.program = program
-        self.cluster = Cluster(program, options=["--lease-s", str(lease)], **surroundings)
+        # a busy machine may lose a lease without a fault: that is not the job's
+        self.cluster = Cluster(program, options=["--lease-s", str(lease), "--max-crashes", "100"], **surroundings)
         self.clients = {owner: Client(self.cluster.fronts, owner) for owner in OWNERS}
         self.load = Load(self.cluster.fronts)
         status, _, headers = self.clients["ann"].ask("POST", "/v1/sweeps", json.dumps(sweep(POINTS, 16)), tries=4)
@@ -49,8 +50,8 @@ class Trial:
                 leases.setdefault(worker, []).append(job)
             found[:] = [(host, leases[host.instance()]) for host in self.cluster.workers if host.instance() in leases]
             return bool(found)
-        if wait_for(look, 30, 0.02) is None:
-            raise RuntimeError("no worker was busy for 30 s")
+        if wait_for(look, PATIENCE, 0.02) is None:
+            raise RuntimeError(f"no worker was busy for {PATIENCE} s")
         return found[0]
 
     def released(self, host, jobs):
@@ -61,7 +62,7 @@ class Trial:
             return self.cluster.database.query(
                 f"SELECT (SELECT count(*) FROM job_leases WHERE worker = '{name}')"
                 f" + (SELECT count(*) FROM sweep_leases WHERE worker = '{name}')") == [["0"]]
-        return wait_for(lambda: gone() and self.all_ended(jobs), 90)
+        return wait_for(lambda: gone() and self.all_ended(jobs), PATIENCE)
 
     def all_ended(self, ids):
         if not ids:
@@ -82,7 +83,7 @@ class Trial:
                 return self.all_ended(new[:count])
             except subprocess.CalledProcessError:
                 return False
-        return wait_for(done, 90)
+        return wait_for(done, PATIENCE)
 
     def verdict(self):
         """What is wrong; empty: nothing."""
@@ -91,7 +92,7 @@ class Trial:
         ids = [path.rsplit("/", 1)[1] for _, _, path in acknowledged]
         if len(set(ids)) != len(ids):
             wrong.append("two submissions got one id")
-        if wait_for(lambda: self.all_ended(ids), 120) is None:
+        if wait_for(lambda: self.all_ended(ids), PATIENCE) is None:
             wrong.append("jobs that do not end")
         rows = dict(self.cluster.database.query("SELECT id, status FROM jobs"))
         lost = [one for one in ids if one not in rows]
@@ -114,7 +115,7 @@ class Trial:
 
     def wrong_sweep(self):
         client = self.clients["ann"]
-        if wait_for(lambda: client.state(self.sweep) not in (*UNENDED, "gone"), 120, 0.2) is None:
+        if wait_for(lambda: client.state(self.sweep) not in (*UNENDED, "gone"), PATIENCE, 0.2) is None:
             return ["the sweep does not end"]
         _, body, _ = client.ask("GET", self.sweep, tries=4)
         counts = json.loads(body)["counts"]
@@ -137,7 +138,7 @@ class Trial:
             other = "bob" if owner == "ann" else "ann"
             for resource in (path, path + "/events", path + "/result"):
                 status, _, _ = self.clients[other].ask("GET", resource, tries=4)
-                if status != 404:
+                if status not in (404, 410):  # its owner is told that it was deleted
                     return [f"{other} sees what belongs to {owner}: {status}"]
         return []
 
@@ -248,7 +249,7 @@ def cut_network(trial):
         held[:] = [row[0] for row in trial.cluster.database.query(
             f"SELECT id FROM job_leases JOIN jobs ON seq = job WHERE worker = '{name}'")]
         return bool(held)
-    if wait_for(look, 30, 0.01) is None:
+    if wait_for(look, PATIENCE, 0.01) is None:
         raise RuntimeError("it got no work")
     trial.cluster.network.cut()
     seconds = trial.released(worker, held)
@@ -272,7 +273,7 @@ def run(program, lease, fault):
         seconds = fault(trial)
         wrong = trial.verdict()
         if seconds is None:
-            wrong.append("no recovery within 90 s")
+            wrong.append(f"no recovery within {PATIENCE} s")
         return seconds, wrong, len(trial.load.acknowledged), trial.lost
     finally:
         trial.stop()
@@ -294,7 +295,7 @@ def main():
         times, wrong, jobs, lost = [], [], 0, 0
         for _ in range(arguments.repeat):
             seconds, found, count, gone = run(arguments.program, arguments.lease, FAULTS[name])
-            times.append(seconds if seconds is not None else 90.0)
+            times.append(seconds if seconds is not None else float(PATIENCE))
             wrong += found
             jobs += count
             lost += gone

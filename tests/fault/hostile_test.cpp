@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/front/listener.h"
 #include "tests/recorded.h"
 #include "tests/server/support/client.h"
 #include "tests/server/support/process.h"
@@ -43,7 +44,7 @@ class Hostile : public testing::Test {
     ASSERT_GT(port_, 0);
   }
 
-  /// 99th percentile of the time that /livez takes on a connection of its own (milliseconds).
+  /// 99th percentile of the time that /livez takes on a connection of its own, in milliseconds.
   [[nodiscard]] double livez_p99(int count) const {
     std::vector<double> times;
     for (int i = 0; i < count; ++i) {
@@ -114,7 +115,10 @@ TEST_F(Hostile, SlowAndIdleClientsDoNotMoveLivez) {
   record_figure("livez_p99_alone_ms", alone);
   record_figure("livez_p99_among_slow_and_idle_clients_ms", among);
   record_figure("memory_grown_mb", grown);
-  EXPECT_LT(among, alone + 50.0);
+  // without them it takes well below a millisecond, but a busy machine may take its time; who waited for slow
+  // clients would wait until the first of them are late
+  const std::chrono::duration<double, std::milli> first_late = http::ClientTimes().head;
+  EXPECT_LT(among, first_late.count() / 2.0);
   EXPECT_LT(grown, kMostGrown);
 }
 

@@ -22,14 +22,6 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 
-/// A path that takes seconds.
-std::string long_request(const std::string& title) {
-  json request = json::parse(column_request(title));
-  request["analysis"]["discretization"]["elements"] = 2000;
-  request["analysis"]["stop"]["steps"] = 4000;
-  return request.dump();
-}
-
 class Stopped : public testing::Test {
  protected:
   std::unique_ptr<Process> serve(const std::vector<std::string>& more = {}) {
@@ -61,13 +53,7 @@ class Stopped : public testing::Test {
     return json::parse(get(port_, job, headers).body);
   }
   bool wait_running(const std::string& job) const {
-    for (int i = 0; i < 200; ++i) {
-      if (status(job)["status"] == "running") {
-        return true;
-      }
-      std::this_thread::sleep_for(milliseconds(10));
-    }
-    return false;
+    return eventually([&] { return status(job)["status"] == "running"; });
   }
 
   TempDir folder_;
@@ -75,42 +61,35 @@ class Stopped : public testing::Test {
 };
 
 TEST_F(Stopped, AWorkerThatSleptPastItsLeaseDoesNotFinishThatAttempt) {
-  const auto service = serve({"--lease-s", "1"});
-  const std::string job = submit(long_request("long"));
-  ASSERT_TRUE(wait_running(job)) << status(job).dump() << "it must not be so quick";
+  const auto service = serve({"--lease-s", "1", "--max-crashes", "1000"});  // a lease may be lost for less
+  const std::string job = submit(endless_request());
+  ASSERT_TRUE(wait_running(job)) << status(job).dump();
   service->signal(SIGSTOP);
   std::this_thread::sleep_for(milliseconds(2500));
   service->signal(SIGCONT);
-  for (int i = 0; i < 300 && status(job)["attempt"] == 1; ++i) {
-    std::this_thread::sleep_for(milliseconds(20));
-  }
-  EXPECT_GE(status(job)["attempt"], 2) << status(job).dump();
+  EXPECT_TRUE(eventually([&] { return status(job)["attempt"] >= 2; })) << status(job).dump();
   EXPECT_EQ(call(port_, "POST", job + "/dismiss", "", {}).status, 200);
   EXPECT_EQ(service->err().find("\"status\":\"successful\""), std::string::npos);
 }
 
-TEST_F(Stopped, DismissingStopsARunningJobWithinASecond) {
+TEST_F(Stopped, DismissingStopsARunningJob) {
   const auto service = serve();
-  const std::string job = submit(long_request("long"));
+  const std::string job = submit(endless_request());
   ASSERT_TRUE(wait_running(job));
-  const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(json::parse(call(port_, "POST", job + "/dismiss", "", {}).body)["status"], "dismissed");
   EXPECT_EQ(call(port_, "POST", job + "/dismiss", "", {}).status, 200) << "repeatable";
-  for (int i = 0; i < 200; ++i) {
-    if (get(port_, "/metrics").body.find("snapthrough_jobs_running 0") != std::string::npos) {
-      break;
-    }
-    std::this_thread::sleep_for(milliseconds(10));
-  }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+  EXPECT_TRUE(eventually([&] {
+    return get(port_, "/metrics").body.find("snapthrough_jobs_running 0") != std::string::npos;
+  })) << "it would go on for minutes";
   EXPECT_EQ(get(port_, job + "/result").status, 404);
   EXPECT_EQ(call(port_, "DELETE", job, "", {}).status, 204);
-  EXPECT_EQ(get(port_, job).status, 404);
+  EXPECT_EQ(get(port_, job).status, 410);
 }
 
-TEST_F(Stopped, SigtermUnderLoadLosesNothingAndEndsInTime) {
+/// The end does not wait for the running job, which goes on for minutes.
+TEST_F(Stopped, SigtermUnderLoadLosesNothing) {
   auto service = serve();
-  const std::string running = submit(long_request("long"));
+  const std::string running = submit(endless_request());
   ASSERT_TRUE(wait_running(running));
   std::mutex mutex;
   std::set<std::string> told;
@@ -118,18 +97,19 @@ TEST_F(Stopped, SigtermUnderLoadLosesNothingAndEndsInTime) {
   for (int client = 0; client < 4; ++client) {
     clients.emplace_back([&, client] { submit_until_gone("c" + std::to_string(client), mutex, told); });
   }
-  std::this_thread::sleep_for(milliseconds(500));
-  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(eventually([&] {
+    const std::lock_guard guard(mutex);
+    return told.size() >= 100;
+  }));
   service->signal(SIGTERM);
+  EXPECT_TRUE(eventually([&] { return service->has_ended(); }));
   EXPECT_EQ(service->wait(), 0);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
   clients.clear();
   service = serve();
-  EXPECT_GE(told.size(), 10U);
   for (const std::string& job : told) {
-    EXPECT_EQ(status(job, {"Prefer: wait=30"})["status"], "successful") << job;
+    EXPECT_EQ(status(job, {"Prefer: wait=60"})["status"], "successful") << job;
   }
-  ASSERT_TRUE(wait_running(running) || status(running)["status"] == "successful") << status(running).dump();
+  ASSERT_TRUE(wait_running(running)) << status(running).dump();
   EXPECT_GE(status(running)["attempt"], 2);
   call(port_, "DELETE", running, "", {});
 }

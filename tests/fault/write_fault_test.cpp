@@ -220,13 +220,7 @@ class FullDisk : public ServiceTest {
     ASSERT_TRUE(status.ok()) << status.message();
   }
   bool wait_ready(int status) {
-    for (int i = 0; i < 100; ++i) {
-      if (get(port(), "/readyz").status == status) {
-        return true;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return false;
+    return eventually([&] { return get(port(), "/readyz").status == status; });
   }
   /// Fills the disk but for that much.
   void fill(std::size_t but) const {
@@ -275,7 +269,7 @@ TEST_F(FullDisk, NoFalseCreatedAtAnyStepAndItRecovers) {
   }
   EXPECT_GT(refused, 0);
   for (const std::string& job : told) {
-    EXPECT_EQ(json::parse(get(port(), job, {"Prefer: wait=20"}).body)["status"], "successful") << job;
+    EXPECT_EQ(json::parse(get(port(), job, {"Prefer: wait=60"}).body)["status"], "successful") << job;
   }
   record_figure("jobs_acknowledged", told.size());
   record_figure("jobs_refused", refused);
@@ -299,14 +293,13 @@ TEST_F(FullDisk, IsReadyAgainAfterRemovalsHoweverOftenItWasFull) {
   };
   for (int round = 0; round < 4 && !HasFailure(); ++round) {
     std::vector<std::string> jobs;
-    for (int i = 0; i < 200 && jobs.empty(); ++i) {  // the disk is looked at once a second
+    ASSERT_TRUE(eventually([&] {  // the disk is looked at once a second
       if (std::string job = submitted(); !job.empty()) {
         jobs.push_back(std::move(job));
-      } else {
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
       }
-    }
-    ASSERT_FALSE(jobs.empty()) << "round " << round << ": the space did not come back";
+      return !jobs.empty();
+    })) << "round "
+        << round << ": the space did not come back";
     for (std::string job = submitted(); !job.empty() && jobs.size() < 1000; job = submitted()) {
       jobs.push_back(std::move(job));
     }

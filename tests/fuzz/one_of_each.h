@@ -38,14 +38,14 @@ class FuzzedSweeps final : public SweepStore {
   StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>&, Time, Time) override {
     return store_is_full();
   }
-  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, Time) override {
+  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, const WorkUsage&, Time) override {
     return store_is_full();
   }
   StatusOr<std::int64_t> recover(int, Time) override { return 0; }
   StatusOr<std::int64_t> rescue(std::string_view, int, Time) override { return 0; }
   StatusOr<SweepChange> dismiss(std::string_view id, Time) override { return changed(id); }
   StatusOr<SweepChange> retry(std::string_view id, const Quotas&, Time) override { return changed(id); }
-  StatusOr<bool> remove(std::string_view id) override { return record(id).has_value(); }
+  StatusOr<bool> remove(std::string_view id, std::optional<Time>) override { return record(id).has_value(); }
   StatusOr<int> retire(std::chrono::seconds, Time) override { return 0; }
   StatusOr<bool> purge(int) override { return false; }
   Status forget_keys(std::chrono::seconds, Time) override { return {}; }
@@ -80,8 +80,15 @@ class FuzzedSweeps final : public SweepStore {
     if (id != kFuzzedSweep && id != kRunningSweep) {
       return std::nullopt;
     }
-    SweepRecord sweep{std::string(id), JobState::running, "",           "a title", "path", 3, 1, 0, 0,
-                      at_second(1),    at_second(2),      std::nullopt, {}};
+    SweepRecord sweep;
+    sweep.id = id;
+    sweep.state = JobState::running;
+    sweep.title = "a title";
+    sweep.analysis_type = "path";
+    sweep.points = 3;
+    sweep.successful = 1;
+    sweep.created = at_second(1);
+    sweep.started = at_second(2);
     if (id == kFuzzedSweep) {
       sweep.state = JobState::failed;
       sweep.successful = 2;
@@ -100,6 +107,23 @@ class FuzzedSweeps final : public SweepStore {
                                              {"[null,\"steps\"]", "", ""}};
 };
 
+/// One of each kind of record.
+class FuzzedLedger final : public LedgerStore {
+ public:
+  StatusOr<std::vector<UsageRow>> usage(const UsageQuery&) override {
+    return std::vector<UsageRow>{{at_second(0), "a \"label\"", 1, 2, {3, 4, 5}}};
+  }
+  StatusOr<std::vector<AuditEntry>> events(const AuditQuery&) override {
+    return std::vector<AuditEntry>{{2, at_second(2), AuditEvent::deleted, true, kFuzzedSweep},
+                                   {1, at_second(1), AuditEvent::submitted, false, kFuzzedJob}};
+  }
+  StatusOr<std::optional<AuditEntry>> deletion(std::string_view, std::string_view) override {
+    return std::optional<AuditEntry>();
+  }
+  StatusOr<Balance> balance(std::string_view, Time) override { return Balance{}; }
+  StatusOr<bool> forget(std::chrono::seconds, int, Time) override { return false; }
+};
+
 class FuzzedStore final : public Store {
  public:
   StatusOr<Submitted> submit(const NewJob&, const std::function<void()>&) override { return store_is_full(); }
@@ -112,15 +136,21 @@ class FuzzedStore final : public Store {
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {
     return store_is_full();
   }
-  Status finish(const Claim&, const JobResult&, Time) override { return store_is_full(); }
-  Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return store_is_full(); }
+  Status finish(const Claim&, const JobResult&, const WorkUsage&, Time) override { return store_is_full(); }
+  Status fail(const Claim&, const JobFailure&, const StoredPath&, const WorkUsage&, Time) override {
+    return store_is_full();
+  }
   Status requeue(const Claim&) override { return store_is_full(); }
   StatusOr<Recovery> recover(int, Time) override { return store_is_full(); }
   StatusOr<Recovery> rescue(std::string_view, int, Time) override { return store_is_full(); }
   StatusOr<Dismissal> dismiss(std::string_view id, Time) override {
     return Dismissal{id == kFuzzedJob, JobState::successful};
   }
-  StatusOr<bool> remove(std::string_view id) override { return id == kFuzzedJob; }
+  StatusOr<bool> remove(std::string_view id, std::optional<Time>) override { return id == kFuzzedJob; }
+  StatusOr<bool> set_key(std::string_view id, std::string_view) override { return id == kFuzzedJob; }
+  StatusOr<std::optional<std::string>> owner_by_key(std::string_view, std::string_view) override {
+    return std::optional<std::string>();
+  }
   StatusOr<int> retire(std::chrono::seconds, int, Time) override { return 0; }
   Status forget_keys(std::chrono::seconds, Time) override { return store_is_full(); }
   Status probe(Time) override { return store_is_full(); }
@@ -148,6 +178,7 @@ class FuzzedStore final : public Store {
   }
   SweepStore& sweeps() override { return sweeps_; }
   DeliveryStore& deliveries() override { return deliveries_; }
+  LedgerStore& ledger() override { return ledger_; }
   StatusOr<StoredPath> path(std::string_view) override {
     return StoredPath{result_.branches, result_.critical_points};
   }
@@ -168,6 +199,7 @@ class FuzzedStore final : public Store {
   const JobResult result_ = sample_result();
   FuzzedSweeps sweeps_;
   FailingDeliveryStore deliveries_{StatusCode::unavailable};
+  FuzzedLedger ledger_;
 };
 
 }  // namespace snapthrough::server::test

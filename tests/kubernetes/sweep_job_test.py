@@ -66,7 +66,7 @@ class SweepJob(unittest.TestCase):
         pod = subprocess.Popen(["sh", "-c", line], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                start_new_session=True)
         file = self.path / "part-4.ndjson"
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + 100
         while time.monotonic() < deadline and not (file.exists() and file.stat().st_size > 4096) and pod.poll() is None:
             time.sleep(0.001)
         try:

@@ -153,7 +153,7 @@ class OtherShells(unittest.TestCase):
         script = (f"zmodload zsh/zpty; zpty z zsh -f -i; zpty -w z 'fpath=({FOLDER}/zsh $fpath); autoload -U compinit; "
                   "compinit -u -D; unsetopt menu_complete; LISTMAX=1000; PS1=READY; stty cols 200 rows 500'; "
                   "zpty -w -n z $'snapthrough solve --table cri\\t'; sleep 2; zpty -r z out '*critical_points*' && print found")
-        done = output("zsh", "-f", "-c", script, timeout=30)
+        done = output("zsh", "-f", "-c", script, timeout=240)
         self.assertIn("found", done.stdout, done.stdout + done.stderr)
 
 

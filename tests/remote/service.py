@@ -8,6 +8,17 @@ import tempfile
 import time
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
+PATIENCE = 100.0  # s, the longest wait for what must come; how fast it comes is no test's business
+
+
+def eventually(condition):
+    """Waits until a condition holds; whether it did so within PATIENCE."""
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.02)
+    return True
 
 
 class Service:
@@ -38,7 +49,7 @@ class Service:
                 [self.binary, "serve", "--config", self.path / "config.toml", "--listen", f"127.0.0.1:{self.port}",
                  "--store", self.path / "jobs.db", "--workers", "2", *self.arguments],
                 stderr=file, env=plain_environment())
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline and self.process.poll() is None:
             for line in log.read_text(encoding="utf-8").splitlines():
                 if '"event":"listening"' in line:
@@ -50,7 +61,7 @@ class Service:
     def stop(self):
         if self.process and self.process.poll() is None:
             self.process.send_signal(signal.SIGTERM)
-            self.process.wait(timeout=30)
+            self.process.wait(timeout=PATIENCE)
 
     @property
     def url(self):

@@ -35,6 +35,8 @@ test('no schema is an open object', () => {
     if (['contains', 'not'].includes(role) || where.includes('/contains/')) return;
     if (role === 'items' && schema === false) return;
     if (role === 'additionalProperties' && schema === false) return;
+    // What else Hops sends is passed over. A type for it would be that of the fields that are named, too.
+    if (where === '/components/schemas/HopsCall/additionalProperties' && schema === true) return;
     const named = ['$ref', 'type', 'const', 'enum', 'oneOf', 'anyOf'].some((key) => key in schema);
     if (schema === true || !named) return open.push(where);
     if (schema.type !== 'object' && !schema.properties) return;
@@ -92,9 +94,10 @@ test('every number of the request and the result has a unit', () => {
 test('defaults obey their schemas', () => {
   let defaults = 0;
   walkAll((schema, where) => {
-    if (schema.default === undefined) return;
+    const value = schema['x-default'] ?? schema.default;
+    if (value === undefined) return;
     defaults += 1;
-    assert.ok(validatorOf(schema, where)(schema.default), where);
+    assert.ok(validatorOf(schema, where)(value), where);
   });
   assert.ok(defaults > 30, `${defaults} defaults`);
 });

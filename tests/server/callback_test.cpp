@@ -66,19 +66,19 @@ class Callback : public ServiceTest {
     EXPECT_EQ(reply.status, 201) << reply.body;
     return json::parse(reply.body)["id"];
   }
-  /// The value of a metric, once it is that or after 20 s.
+  /// The value of a metric, once it is that or after kPatience.
   double metric(const std::string& name, double expected) {
     double value = -1.0;
-    for (int i = 0; i < 2000 && value != expected; ++i) {
+    (void)eventually([&] {
       const std::string text = get(port(), "/metrics").body;
       const std::size_t at = text.find("\nsnapthrough_" + name + " ");
       value = at == std::string::npos ? -1.0 : std::stod(text.substr(text.find(' ', at) + 1));
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+      return value == expected;
+    });
     return value;
   }
 
-  WebhookTimes times_{std::chrono::milliseconds(300),
+  WebhookTimes times_{std::chrono::hours(1),
                       std::chrono::milliseconds(10),
                       {std::chrono::milliseconds(20), std::chrono::milliseconds(20)}};
 };
@@ -211,16 +211,19 @@ TEST_F(Callback, WhatIsNotTakenIsToldAgainUnderTheSameId) {
   Receiver receiver([](int number) {
     return number == 0 ? response(500) : number == 1 ? std::string() : response(200);
   });
+  times_.attempt = std::chrono::seconds(1);
+  times_.pauses = std::vector<std::chrono::milliseconds>(1000, std::chrono::milliseconds(20));
   start_telling({receiver.host()});
   add(with_callback(receiver.address()));
   const std::vector<Told> told = receiver.wait_for(3);
-  ASSERT_EQ(told.size(), 3U);
+  ASSERT_GE(told.size(), 3U);
   for (const Told& one : told) {
     EXPECT_EQ(one.headers.at("webhook-id"), told[0].headers.at("webhook-id"));
     EXPECT_EQ(one.body, told[0].body);
   }
   EXPECT_EQ(metric("callbacks_delivered_total", 1), 1);
-  EXPECT_EQ(metric("callback_attempts_failed_total", 2), 2);
+  EXPECT_GE(metric("callback_attempts_failed_total", 2), 2)
+      << "more if the receiver had no processor for 1 s";
 }
 
 TEST_F(Callback, ItIsGivenUpAfterTheLastPauseAndRedirectsAreNotFollowed) {
@@ -283,31 +286,30 @@ TEST_F(Callback, ASweepIsToldOnce) {
 }
 
 TEST_F(Callback, AReceiverThatStallsDelaysNeitherJobsNorOthersNorTheEnd) {
-  times_.attempt = std::chrono::seconds(60);
   Receiver silent([](int) { return std::string(); });
   Receiver receiver;
   start_telling({silent.host(), receiver.host()});
   add(with_callback(silent.address()));
-  ASSERT_EQ(silent.wait_for(1).size(), 1U);
-  const auto begin = std::chrono::steady_clock::now();
+  add(with_callback(silent.address()));
+  ASSERT_EQ(silent.wait_for(2).size(), 2U);
   add(with_callback(silent.address()));
   EXPECT_EQ(post(port(), "/v1/jobs", with_callback(receiver.address())).status, 200);
   EXPECT_EQ(receiver.wait_for(1).size(), 1U);
-  service_.reset();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
-  EXPECT_EQ(silent.told().size(), 1U) << "one after the other";
+  service_.reset();  // all this during an attempt that may take an hour
+  EXPECT_EQ(silent.told().size(), 2U) << "of one owner";
   start_telling({receiver.host()});
-  EXPECT_EQ(metric("callbacks_waiting", 2), 2) << "what was cut is not lost, nor counted as an attempt";
+  EXPECT_EQ(metric("callbacks_waiting", 3), 3) << "what was cut is not lost, nor counted as an attempt";
 }
 
 TEST_F(Callback, AnAttemptEndsHoweverSlowlyTheReceiverAnswers) {
+  times_.attempt = std::chrono::milliseconds(300);
   Receiver receiver([](int number) {
     return number == 0 ? std::string("HTTP/1.1 200 OK\r\nX-Long: ") + Receiver::kDrip : response(200);
   });
   start_telling({receiver.host()});
   add(with_callback(receiver.address()));
-  EXPECT_EQ(receiver.wait_for(2).size(), 2U);
-  EXPECT_EQ(metric("callback_attempts_failed_total", 1), 1);
+  EXPECT_GE(receiver.wait_for(2).size(), 2U);
+  EXPECT_GE(metric("callback_attempts_failed_total", 1), 1);
 }
 
 /// The library holds a lock while it connects, so that its own stop() would wait for that.
@@ -324,9 +326,8 @@ TEST(CallbackPost, OneThatCanNotConnectIsCut) {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     (void)::connect(queue.back().get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address));
   }
-  Poster poster("http://127.0.0.1:" + std::to_string(port), std::chrono::seconds(60));
+  Poster poster("http://127.0.0.1:" + std::to_string(port), std::chrono::hours(1));
   std::atomic<bool> done = false;
-  const auto begin = std::chrono::steady_clock::now();
   const std::jthread post([&] {
     sigset_t signals;
     ::sigemptyset(&signals);
@@ -337,11 +338,10 @@ TEST(CallbackPost, OneThatCanNotConnectIsCut) {
   });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_FALSE(done) << "it was connected or refused";
-  while (!done && std::chrono::steady_clock::now() - begin < std::chrono::seconds(50)) {
+  EXPECT_TRUE(eventually([&] {  // the kernel goes on for two minutes
     poster.cut_late(true);
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    return done.load();
+  }));
 }
 
 TEST_F(Callback, TheBodyOfAResponseIsNotReadToItsEnd) {
@@ -349,7 +349,6 @@ TEST_F(Callback, TheBodyOfAResponseIsNotReadToItsEnd) {
     return "HTTP/1.1 200 OK\r\nContent-Length: 1000000000000\r\n\r\n" + std::string(100'000, 'x') +
            Receiver::kDrip;
   });
-  times_.attempt = std::chrono::seconds(60);
   start_telling({receiver.host()});
   add(with_callback(receiver.address()));
   EXPECT_EQ(metric("callbacks_delivered_total", 1), 1);

@@ -17,6 +17,7 @@
 
 #include "server/front/sockets.h"
 #include "server/webhooks/post.h"
+#include "tests/server/support/eventually.h"
 #include "tests/server/support/temp_dir.h"
 
 namespace snapthrough::server::test {
@@ -103,7 +104,7 @@ class CallbackTls : public testing::Test {
   void SetUp() override { std::signal(SIGPIPE, SIG_IGN); }  // OpenSSL writes to sockets that are closed
   void TearDown() override { ::unsetenv("SSL_CERT_FILE"); }
   static int status(const TlsReceiver& receiver) {
-    return Poster(receiver.origin(), std::chrono::seconds(10)).post("/", "{}", {}).status;
+    return Poster(receiver.origin(), kPatience).post("/", "{}", {}).status;
   }
   TempDir folder_;
   const std::string certificate_ = folder_.file("certificate.pem");

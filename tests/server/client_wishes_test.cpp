@@ -63,7 +63,7 @@ TEST_F(ClientWishes, AJobThatIsAskedForIsAnsweredWhateverIsKnown) {
     EXPECT_EQ(fresh.status, 201) << fresh.body;
     EXPECT_TRUE(is_job(fresh));
     EXPECT_EQ(fresh.header("X-Cache"), "miss");
-    ASSERT_EQ(get(port(), fresh.header("Location"), {"Prefer: wait=20"}).status, 200);
+    ASSERT_EQ(get(port(), fresh.header("Location"), {"Prefer: wait=60"}).status, 200);
     const Reply known = prefer(preference, title);
     EXPECT_EQ(known.status, 200) << known.body;
     EXPECT_TRUE(is_job(known));
@@ -78,7 +78,7 @@ TEST_F(ClientWishes, AJobThatIsAskedForIsAnsweredWhateverIsKnown) {
 
 TEST_F(ClientWishes, AWaitIsForTheEndOfTheJobThatIsAnswered) {
   start(solve);
-  const Reply reply = prefer("return=minimal, wait=20");
+  const Reply reply = prefer("return=minimal, wait=60");
   EXPECT_EQ(reply.status, 201);
   EXPECT_EQ(json::parse(reply.body)["status"], "successful");
 }
@@ -237,7 +237,7 @@ TEST_F(ClientWishes, SweepsHaveLabelsAndFiltersToo) {
   const Reply reply = post(port(), "/v1/sweeps", annotated("sweep", column_sweep(2, "x"), "study"));
   ASSERT_EQ(reply.status, 201) << reply.body;
   ASSERT_EQ(post(port(), "/v1/sweeps", column_sweep(3, "y")).status, 201);
-  const json sweep = json::parse(get(port(), reply.header("Location"), {"Prefer: wait=20"}).body);
+  const json sweep = json::parse(get(port(), reply.header("Location"), {"Prefer: wait=60"}).body);
   EXPECT_EQ(sweep["label"], "study");
   EXPECT_EQ(sweep["metadata"]["run"], "7");
   EXPECT_EQ(sweep["analysis"], "path");

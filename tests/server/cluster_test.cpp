@@ -33,22 +33,15 @@ class ClusterTest : public ServiceTest {
     ServiceConfig config = this->config();
     config.store_path = location_;
     config.front = false;
-    config.jobs.lease = std::chrono::seconds(3);
     config.observe = {"127.0.0.1", 0};
     worker_ = std::make_unique<Service>(config, environment, local_runners(gated(solver_)), log_);
     const Status status = worker_->start();
     ASSERT_TRUE(status.ok()) << status.message();
   }
-  /// What a job or sweep says of itself once that holds; the last when it does not within 10 s.
+  /// What a job or sweep says of itself once that holds; the last when it does not within kPatience.
   json when(const std::string& path, const std::function<bool(const json&)>& holds) const {
     json status;
-    for (int i = 0; i < 500; ++i) {
-      status = json::parse(get(port(), path).body);
-      if (holds(status)) {
-        return status;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+    (void)eventually([&] { return holds(status = json::parse(get(port(), path).body)); });
     return status;
   }
   std::string submit_sweep(int points) const {
@@ -66,7 +59,7 @@ TEST_F(ClusterTest, WhoWaitsIsAnsweredWhenAnotherProcessHasTheResult) {
   solver_->open();
   start_worker();
   const Reply reply =
-      post(port(), "/v1/jobs", column_request("t"), {"Content-Type: application/json", "Prefer: wait=20"});
+      post(port(), "/v1/jobs", column_request("t"), {"Content-Type: application/json", "Prefer: wait=60"});
   EXPECT_EQ(reply.status, 200) << reply.body;
   EXPECT_EQ(json::parse(reply.body)["summary"]["termination"], "steps");
 }
@@ -87,7 +80,7 @@ TEST_F(ClusterTest, AgesInMetricsAreThoseOfOneClock) {
     return found == std::string::npos ? -1.0 : std::stod(text.substr(found + line.size()));
   };
   EXPECT_EQ(value("snapthrough_job_waiting_seconds_count"), 1);
-  EXPECT_LT(value("snapthrough_job_waiting_seconds_sum"), 60.0);
+  EXPECT_LT(value("snapthrough_job_waiting_seconds_sum"), 1800.0) << "not by an hour more";
   EXPECT_GE(value("snapthrough_job_waiting_seconds_sum"), 0.0);
   worker_.reset();
   submit("waits");
@@ -95,7 +88,7 @@ TEST_F(ClusterTest, AgesInMetricsAreThoseOfOneClock) {
   ASSERT_TRUE(store.ok()) << store.status().message();
   const StatusOr<std::optional<Time>> oldest = (*store)->oldest_waiting(ahead.now());
   ASSERT_TRUE(oldest.ok() && *oldest);
-  EXPECT_LT(ahead.now() - **oldest, std::chrono::seconds(60));
+  EXPECT_LT(ahead.now() - **oldest, std::chrono::minutes(30));
 }
 
 /// During an upgrade a newer host accepts documents that an older worker can't read.
@@ -147,10 +140,8 @@ TEST_F(ClusterTest, ADismissalReachesTheProcessThatWorks) {
   const std::string second = submit("another");
   solver_->wait_started(2);  // both workers are busy, and the gate is shut
   EXPECT_EQ(post(port(), job + "/dismiss", "").status, 200);
-  const auto dismissed = std::chrono::steady_clock::now();
   submit("a third");
-  solver_->wait_started(3);
-  EXPECT_LT(std::chrono::steady_clock::now() - dismissed, std::chrono::seconds(10)) << "it was stopped";
+  solver_->wait_started(3);  // by the worker whose analysis was stopped: the gate is still shut
   EXPECT_EQ(json::parse(get(port(), job).body)["status"], "dismissed");
 }
 
@@ -158,7 +149,7 @@ TEST_F(ClusterTest, ASweepIsComputedElsewhereAndItsEndIsToldHere) {
   solver_->open();
   const std::string sweep = submit_sweep(300);
   start_worker();
-  const Reply ended = get(port(), sweep, {"Prefer: wait=20"});
+  const Reply ended = get(port(), sweep, {"Prefer: wait=60"});
   EXPECT_EQ(json::parse(ended.body)["status"], "successful") << ended.body;
   EXPECT_EQ(json::parse(get(port(), sweep + "/table").body)["rows"].size(), 300U);
 }
@@ -178,15 +169,25 @@ TEST_F(ClusterTest, AProcessThatOnlyWorksTellsHowItIsAndNothingElse) {
   EXPECT_EQ(get(worker_->port(), job).status, 404);
 }
 
-/// Its leases of three seconds neither hold for an hour nor are over at once, and what it writes is on time.
+/// Its leases neither hold for an hour nor are over at once, and what it writes is on time.
 TEST_F(ClusterTest, TheClockOfAProcessDoesNotMatter) {
+  postgresql::Connection database(location_);
+  const auto microseconds_left = [&] {
+    return database.run(
+        "SELECT (until_us - extract(epoch FROM clock_timestamp()) * 1e6)::bigint FROM job_leases");
+  };
+  const auto lease_end = [&] { return database.run("SELECT until_us FROM job_leases")[0].integer(0); };
   for (const int hours : {-1, 1}) {
     Environment skewed = Environment::system();
     skewed.now = [now = skewed.now, hours] { return now() + std::chrono::hours(hours); };
     start_worker(skewed);
     const std::string job = submit("at " + std::to_string(hours));
     solver_->wait_started(hours < 0 ? 1 : 2);
-    std::this_thread::sleep_for(std::chrono::seconds(4));  // longer than the lease, which is renewed
+    const std::int64_t first_end = lease_end();
+    EXPECT_TRUE(eventually([&] { return lease_end() > first_end; })) << "it is renewed";
+    const std::int64_t left = microseconds_left()[0].integer(0);
+    EXPECT_GT(left, 0);
+    EXPECT_LE(left, std::chrono::microseconds(config().jobs.lease).count());
     json status = json::parse(get(port(), job).body);
     EXPECT_EQ(status["status"], "running");
     EXPECT_EQ(status["attempt"], 1);
@@ -306,10 +307,16 @@ TEST(SharedStore, AConnectionThatIsEndedWhileItWaitsIsLost) {
   postgresql::Connection other(location);
   const std::int64_t server = connection.run("SELECT pg_backend_pid()::bigint")[0].integer(0);
   std::jthread ends([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    other.run("SELECT pg_terminate_backend(" + std::to_string(server) + ")");
+    const std::string process = std::to_string(server);
+    EXPECT_TRUE(eventually([&] {
+      return other
+                 .run("SELECT count(*) FROM pg_stat_activity WHERE wait_event = 'PgSleep' AND pid = " +
+                      process)[0]
+                 .integer(0) == 1;
+    }));
+    other.run("SELECT pg_terminate_backend(" + process + ")");
   });
-  const std::vector<postgresql::Statement> waits{{"SELECT 1"}, {"SELECT pg_sleep(60)"}, {"SELECT 2"}};
+  const std::vector<postgresql::Statement> waits{{"SELECT 1"}, {"SELECT pg_sleep(3600)"}, {"SELECT 2"}};
   try {
     connection.run_all(waits);
     ADD_FAILURE();
@@ -383,9 +390,7 @@ TEST(SharedSweeps, WhoWaitsForItsShareOfASweepLooksAgain) {
     });
     const std::string waiting =
         "SELECT count(*) FROM pg_locks WHERE locktype = 'advisory' AND NOT granted AND objid = " + sweep;
-    for (int i = 0; i < 500 && other.run(waiting)[0].integer(0) == 0; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+    EXPECT_TRUE(eventually([&] { return other.run(waiting)[0].integer(0) > 0; }));
     other.execute("DELETE FROM sweep_left");
     holder.execute("COMMIT");
   }
@@ -417,11 +422,10 @@ TEST(SharedSweeps, WhatIsKnownIsFoundByItsIndex) {
   const std::string whole = "(SELECT seq_scan FROM pg_stat_user_tables WHERE relid = 'sweep_rows'::regclass)";
   const std::int64_t before = scans(whole);
   EXPECT_EQ(scans(by_index), 0);
-  for (int i = 0; i < 200 && scans(by_index) == 0; ++i) {  // what was counted is told a second later
+  EXPECT_TRUE(eventually([&] {  // what was counted is told a second later
     EXPECT_THAT(*sweeps.find_outputs({key}), testing::ElementsAre(testing::Optional(std::string("[1.5]"))));
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  EXPECT_GT(scans(by_index), 0);
+    return scans(by_index) > 0;
+  }));
   EXPECT_EQ(scans(whole), before);
 }
 

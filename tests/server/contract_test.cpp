@@ -256,7 +256,7 @@ class ContractOverHttp : public ServiceTest {
     const std::string sweep = post(port(), "/v1/sweeps", failing.dump()).header("Location");
     const std::string missing = "/v1/sweeps/00000000-0000-7000-8000-000000000000";
     for (const std::string& at : {sweep, missing}) {
-      expect_published("GET", "/v1/sweeps/{id}", get(port(), at, {"Prefer: wait=20"}));
+      expect_published("GET", "/v1/sweeps/{id}", get(port(), at, {"Prefer: wait=60"}));
       use("GET", "/v1/sweeps/{id}/request", at + "/request");
       use("GET", "/v1/sweeps/{id}/table", at + "/table");
       use("GET", "/v1/sweeps/{id}/table", at + "/table?format=csv&status=failed&first=1&count=1");
@@ -278,7 +278,7 @@ class ContractOverHttp : public ServiceTest {
       use("POST", "/v1/sweeps/{id}/dismiss", at + "/dismiss");
       use("POST", "/v1/sweeps/{id}/retry", at + "/retry?status=failed");
       use("POST", "/v1/sweeps/{id}/retry", at + "/retry?status=all");
-      expect_published("GET", "/v1/sweeps/{id}", get(port(), at, {"Prefer: wait=20"}));
+      expect_published("GET", "/v1/sweeps/{id}", get(port(), at, {"Prefer: wait=60"}));
       use("DELETE", "/v1/sweeps/{id}", at);
     }
     const std::string annotated =
@@ -287,6 +287,41 @@ class ContractOverHttp : public ServiceTest {
     use("POST", "/v1/sweeps", "/v1/sweeps", annotated);
     use("GET", "/v1/sweeps", "/v1/sweeps?limit=1");
     use("GET", "/v1/sweeps", "/v1/sweeps?limit=0");
+  }
+
+  void use_tools() {
+    const Headers drawing{"Content-Type: image/vnd.dxf"};
+    const std::string line =
+        "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nwall\n10\n0\n20\n0\n11\n1\n21\n0\n0\nENDSEC\n";
+    use("POST", "/v1/convert", "/v1/convert", line, drawing);
+    use("POST", "/v1/convert", "/v1/convert?layer=wall&tolerance=0.1", line, drawing);
+    use("POST", "/v1/convert", "/v1/convert?layer=roof", line, drawing);
+    use("POST", "/v1/convert", "/v1/convert?layers=wall", line, drawing);
+    use("POST", "/v1/convert", "/v1/convert", "0\nCIRCLE\n", drawing);
+    const json& converts = description()["paths"]["/v1/convert"]["post"]["requestBody"]["content"];
+    const json& soil = converts["application/json"]["example"];
+    EXPECT_TRUE(schemas_.valid(schemas_.named("SoilDocument"), soil));
+    use("POST", "/v1/convert", "/v1/convert", soil.dump());
+    std::string form;
+    for (const auto& [name, table] : converts["multipart/form-data"]["example"].items()) {
+      form += "--x\r\nContent-Disposition: form-data; name=\"" + name + "\"\r\n\r\n" +
+              table.get<std::string>() + "\r\n";
+    }
+    const Headers tables{"Content-Type: multipart/form-data; boundary=x"};
+    use("POST", "/v1/convert", "/v1/convert", form + "--x--", tables);
+    use("POST", "/v1/convert", "/v1/convert", form, tables);
+    use("POST", "/v1/convert", "/v1/convert", line, {"Content-Type: text/plain"});
+    const json& plots = description()["paths"]["/v1/plot"]["post"]["requestBody"]["content"];
+    const json& table = plots["application/json"]["example"];
+    EXPECT_TRUE(schemas_.valid(schemas_.named("FigureDocument"), table));
+    use("POST", "/v1/plot", "/v1/plot", table.dump());
+    use("POST", "/v1/plot", "/v1/plot?kind=model", column_request());
+    use("POST", "/v1/plot", "/v1/plot?kind=pie", table.dump());
+    use("POST", "/v1/plot", "/v1/plot", "{}", {"Content-Type: text/plain"});
+    for (const char* body : {"", "{", "{}", "[]"}) {
+      use("POST", "/v1/convert", "/v1/convert", body);
+      use("POST", "/v1/plot", "/v1/plot", body);
+    }
   }
 
   void use_components() {
@@ -325,6 +360,7 @@ TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
     use("GET", "/v1/jobs/{id}/request", at + "/request");
     use("GET", "/v1/jobs/{id}/events", at + "/events");
     use("POST", "/v1/jobs/{id}/dismiss", at + "/dismiss");
+    use("POST", "/v1/jobs/{id}/key", at + "/key", "", {});
     use("DELETE", "/v1/jobs/{id}", at);
   }
   for (const char* body : {"", "{", "{}", "[]", "{\"model\": {}, \"analysis\": {\"type\": \"path\"}}"}) {
@@ -347,9 +383,16 @@ TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
   use("GET", "/v1/jobs", "/v1/jobs?label=a&analysis=path&created_after=2020-01-01T00:00:00Z");
   use("POST", "/v1/check", "/v1/check", column_request());
   use_sweeps();
+  use_tools();
   use_components();
   use("GET", "/v1/jobs", "/v1/jobs?limit=1");
   use("GET", "/v1/jobs", "/v1/jobs?limit=0");
+  use("GET", "/v1/usage", "/v1/usage");
+  use("GET", "/v1/usage", "/v1/usage?format=csv");
+  use("GET", "/v1/usage", "/v1/usage?from=now");
+  use("GET", "/v1/audit", "/v1/audit?limit=2");
+  use("GET", "/v1/audit", "/v1/audit?limit=0");
+  use("GET", "/v1/jobs/{id}", job);  // which was deleted above
   for (const char* path :
        {"/v1/limits", "/v1/openapi.json", "/v1/examples", "/livez", "/readyz", "/metrics"}) {
     use("GET", path, path);
@@ -566,6 +609,9 @@ TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {
       post(port(), "/v1/jobs", column_request(), {json_type, "Authorization: Bearer bob"}).header("X-Cache"),
       "miss");
   EXPECT_EQ(get(port(), job, {"Authorization: Bearer alice"}).status, 200);
+  for (const char* key : {"alice", "bob", "wrong"}) {
+    use("POST", "/v1/jobs/{id}/key", job + "/key", "", {std::string("Authorization: Bearer ") + key});
+  }
   EXPECT_EQ(get(port(), "/livez").status, 200);
 }
 

@@ -109,6 +109,28 @@ TEST_P(DeliveryStoreConformance, WhatIsDueIsGivenByOriginTheOldestFirst) {
   }
 }
 
+TEST_P(DeliveryStoreConformance, WhatIsUnderWayAndOwnersThatHaveTheirPartAreLeftOut) {
+  for (int number = 1; number <= 3; ++number) {
+    NewJob owned = job(number);
+    owned.owner = number == 2 ? "bob \"}, {" : "ann";
+    ASSERT_TRUE(store_->submit(owned).ok());
+    ASSERT_TRUE(store_->dismiss(id_number(number), at_second(50 + number)).ok());
+  }
+  const auto next_but = [&](const UnderWay& under_way) {
+    const auto found = deliveries().next(kOrigin, under_way, 0ms, at_second(1000));
+    EXPECT_TRUE(found.ok()) << found.status().message();
+    return found.ok() && *found ? **found : Delivery{};
+  };
+  const Delivery first = next_but({});
+  EXPECT_EQ(first.id, id_number(1));
+  EXPECT_EQ(first.owner, "ann");
+  const Delivery second = next_but({{first.number}, {}});
+  EXPECT_EQ(second.id, id_number(2));
+  EXPECT_EQ(next_but({{}, {"ann"}}).id, id_number(2));
+  EXPECT_EQ(next_but({{first.number}, {second.owner}}).id, id_number(3));
+  EXPECT_EQ(next_but({{second.number}, {"ann", "nobody"}}).id, "");
+}
+
 TEST_P(DeliveryStoreConformance, AnAttemptThatFailedIsKeptWithItsNumber) {
   add_job(1);
   ASSERT_TRUE(store_->dismiss(id_number(1), at_second(50)).ok());

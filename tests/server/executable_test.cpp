@@ -159,7 +159,7 @@ TEST_F(Executable, AKilledServiceKeepsWhatItAcknowledged) {
   EXPECT_EQ(service->wait(), 1000 + SIGKILL);
   service = serve();
   for (const std::string& job : jobs) {
-    EXPECT_EQ(json::parse(get(port_, job, {"Prefer: wait=30"}).body)["status"], "successful") << job;
+    EXPECT_EQ(json::parse(get(port_, job, {"Prefer: wait=60"}).body)["status"], "successful") << job;
   }
 }
 

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "server/resources/job_key.h"
 #include "tests/server/support/failing_delivery_store.h"
+#include "tests/server/support/failing_ledger_store.h"
 #include "tests/server/support/failing_sweep_store.h"
 #include "tests/server/support/samples.h"
 
@@ -32,7 +34,11 @@ class FailingStore : public Store {
   }
   StatusOr<Recovery> rescue(std::string_view, int, Time) override { return status(); }
   StatusOr<Dismissal> dismiss(std::string_view, Time) override { return status(); }
-  StatusOr<bool> remove(std::string_view) override { return status(); }
+  StatusOr<bool> remove(std::string_view, std::optional<Time>) override { return status(); }
+  StatusOr<bool> set_key(std::string_view, std::string_view) override { return status(); }
+  StatusOr<std::optional<std::string>> owner_by_key(std::string_view, std::string_view) override {
+    return status();
+  }
   StatusOr<int> retire(std::chrono::seconds, int, Time) override { return status(); }
   Status forget_keys(std::chrono::seconds, Time) override { return status(); }
   Status probe(Time) override { return status(); }
@@ -42,8 +48,10 @@ class FailingStore : public Store {
   StatusOr<std::vector<std::string>> owners() override { return status(); }
   StatusOr<std::int64_t> waiting() override { return status(); }
   StatusOr<std::optional<Time>> oldest_waiting(Time /*now*/) override { return status(); }
-  Status finish(const Claim&, const JobResult&, Time) override { return status(); }
-  Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return status(); }
+  Status finish(const Claim&, const JobResult&, const WorkUsage&, Time) override { return status(); }
+  Status fail(const Claim&, const JobFailure&, const StoredPath&, const WorkUsage&, Time) override {
+    return status();
+  }
   Status requeue(const Claim&) override { return status(); }
   StatusOr<Recovery> recover(int, Time) override { return status(); }
   StatusOr<std::optional<Job>> get(std::string_view id) override {
@@ -61,6 +69,7 @@ class FailingStore : public Store {
   }
   SweepStore& sweeps() override { return sweeps_; }
   DeliveryStore& deliveries() override { return deliveries_; }
+  LedgerStore& ledger() override { return ledger_; }
   StatusOr<StoredPath> path(std::string_view) override { return status(); }
 
  private:
@@ -68,6 +77,7 @@ class FailingStore : public Store {
   StatusCode code_;
   test::FailingSweepStore sweeps_{code_};
   test::FailingDeliveryStore deliveries_{code_};
+  test::FailingLedgerStore ledger_{code_};
 };
 
 /// A store whose one result is deleted by somebody as soon as it was found.
@@ -128,6 +138,19 @@ TEST(Gateway, AStoreThatIsUnavailableIs503) {
     const Response response = bench.serve(method, path);
     EXPECT_EQ(response.status, 503) << method << path;
     EXPECT_THAT(response.headers, testing::Contains(testing::Pair("Retry-After", "5")));
+  }
+}
+
+TEST(Gateway, AKeyOfAJobThatTheStoreCannotCompareOpensNothing) {
+  Bench<> bench(StatusCode::unavailable);
+  const KeyRing keys({{"ann", std::string(64, '0')}});
+  Gateway gateway{bench.routes, bench.environment, bench.log, keys, bench.metrics};
+  for (const char* part : {"", "/result", "/table.csv", "/request", "/events"}) {
+    Request request;
+    request.method = "GET";
+    request.path = kJob + part;
+    request.headers = {{"Authorization", "Bearer " + new_job_key(bench.environment)}};
+    EXPECT_EQ(gateway.serve(request).status, 503) << part;
   }
 }
 

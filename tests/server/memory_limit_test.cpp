@@ -53,13 +53,13 @@ TEST(MemoryLimit, WhereverItStrikesOneAnalysisFailsAndTheNextIsRight) {
   const std::string request = many_states(3000).dump();
   const JobRun whole = solved_within(kNoLimit, request);
   ASSERT_TRUE(whole.result);
-  ASSERT_GT(whole.peak_bytes, 8 * kMegabyte);
+  ASSERT_GT(whole.usage.peak_bytes, 8 * kMegabyte);
   const auto summary = [](const JobRun& run) { return json::parse(run.result->document)["summary"]; };
   RunnerCounters counters;
   int refused = 0;
   constexpr int kLimits = 16;
   for (int i = 1; i <= kLimits; ++i) {
-    ChildRunner runner({SNAPTHROUGH_EXECUTABLE, 3 * whole.peak_bytes * i / kLimits}, counters);
+    ChildRunner runner({SNAPTHROUGH_EXECUTABLE, 3 * whole.usage.peak_bytes * i / kLimits}, counters);
     const JobRun run = runner.run_job(request, {});
     if (run.failure) {
       ++refused;
@@ -88,7 +88,7 @@ TEST(MemoryLimit, TheLeastIsBelowEveryPeak) {
       const std::string text = column(analysis).dump();
       const api::ReadOutcome read = api::read_request(text);
       ASSERT_TRUE(read.request) << type << (read.findings.empty() ? "" : read.findings[0].detail);
-      const std::int64_t peak = solved_within(kNoLimit, text).peak_bytes;
+      const std::int64_t peak = solved_within(kNoLimit, text).usage.peak_bytes;
       const std::int64_t least = least_memory(read.request->model, read.request->analysis);
       EXPECT_LT(least, peak) << type << " order " << order;
       EXPECT_GT(least, peak / 10) << type << " order " << order << ": a bound that bounds nothing";
@@ -165,7 +165,7 @@ TEST_F(MemoryOverHttp, APointOfASweepThatGrowsBeyondItIsARow) {
   const Reply created = post(port(), "/v1/sweeps", sweep.dump());
   ASSERT_EQ(created.status, 201) << created.body;
   const std::string path = created.header("Location");
-  EXPECT_EQ(json::parse(get(port(), path, {"Prefer: wait=30"}).body)["status"], "failed");
+  EXPECT_EQ(json::parse(get(port(), path, {"Prefer: wait=60"}).body)["status"], "failed");
   const json rows = json::parse(get(port(), path + "/table").body)["rows"];
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0][3], nullptr);

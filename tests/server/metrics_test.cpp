@@ -114,6 +114,7 @@ TEST_F(ServiceTest, MetricsTellOutcomesDurationsAndTheOldestWaitingJob) {
   EXPECT_EQ(ExpositionCheck(get(port(), "/metrics").body).value("snapthrough_oldest_waiting_job_seconds"), 0);
   const std::string running = submit("running");
   solver->wait_started(1);
+  const auto before = std::chrono::steady_clock::now();
   const std::string waiting = submit("waiting");
   const std::string dismissed = submit("dismissed");
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -121,10 +122,11 @@ TEST_F(ServiceTest, MetricsTellOutcomesDurationsAndTheOldestWaitingJob) {
   const double age =
       ExpositionCheck(get(port(), "/metrics").body).value("snapthrough_oldest_waiting_job_seconds");
   EXPECT_GT(age, 0.2);
-  EXPECT_LT(age, 20.0);
+  const std::chrono::duration<double> longest = std::chrono::steady_clock::now() - before;
+  EXPECT_LT(age, longest.count() + 0.1) << "since it was handed in, in seconds";
   solver->open();
-  EXPECT_EQ(get(port(), running, {"Prefer: wait=20"}).status, 200);
-  EXPECT_EQ(get(port(), waiting, {"Prefer: wait=20"}).status, 200);
+  EXPECT_EQ(get(port(), running, {"Prefer: wait=60"}).status, 200);
+  EXPECT_EQ(get(port(), waiting, {"Prefer: wait=60"}).status, 200);
   post(port(), "/v1/sweeps", column_sweep(3));
   const ExpositionCheck check(get(port(), "/metrics").body);
   EXPECT_EQ(check.value(R"(snapthrough_jobs_ended_total{code="successful"})"), 2);
@@ -146,11 +148,11 @@ TEST_F(ServiceTest, MetricsTellWhyJobsAndPointsFailed) {
   });
   EXPECT_EQ(post(port(), "/v1/jobs", column_request()).status, 422);
   const std::string sweep = post(port(), "/v1/sweeps", column_sweep(3)).header("Location");
-  EXPECT_EQ(get(port(), sweep, {"Prefer: wait=20"}).status, 200);
+  EXPECT_EQ(get(port(), sweep, {"Prefer: wait=60"}).status, 200);
   // points are counted after the store shows them, hence perhaps after the answer that the sweep has ended
   const char* const points = R"(snapthrough_sweep_points_ended_total{code="no_convergence"})";
   const auto counted = [&] { return ExpositionCheck(get(port(), "/metrics").body).value(points); };
-  for (int i = 0; i < 500 && counted() < 3; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(eventually([&] { return counted() >= 3; }));
   EXPECT_EQ(counted(), 3);
   EXPECT_EQ(ExpositionCheck(get(port(), "/metrics").body)
                 .value(R"(snapthrough_jobs_ended_total{code="no_convergence"})"),

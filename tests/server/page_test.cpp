@@ -173,7 +173,7 @@ TEST_F(PageTest, EachExampleOfTheInterfaceIsTaken) {
       EXPECT_THAT(post(port(), path, operations[place].dump()).status, testing::AnyOf(200, 201)) << path;
     }
   }
-  EXPECT_EQ(examples, 3) << "jobs, sweeps and the check";
+  EXPECT_EQ(examples, 5) << "jobs, sweeps, the check, files and figures";
 }
 
 TEST_F(PageTest, RequestsAndResultsHaveTheirTablesOfFields) {

@@ -365,7 +365,7 @@ TEST_F(QuotaOverHttp, MoreThanMayBeKeptIs403UntilSomethingIsRemoved) {
   for (int i = 0; i < 10 && reply.status != 403; ++i) {
     job = reply.header("Location");
     reply = hand_in("ann", "/v1/jobs", column_request("job " + std::to_string(i)));
-    const Headers waits{"Authorization: Bearer key of ann", "Prefer: wait=20"};
+    const Headers waits{"Authorization: Bearer key of ann", "Prefer: wait=60"};
     EXPECT_TRUE(reply.status != 201 || get(port(), reply.header("Location"), waits).status == 200);
   }
   expect_problem(reply, 403, "storage-quota", "quota_bytes_kept (see /v1/limits) is 3000");

@@ -24,22 +24,10 @@ namespace {
 
 using nlohmann::json;
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 using testing::HasSubstr;
 
 constexpr std::int64_t kMegabyte = 1 << 20;
 constexpr std::int64_t kEnough = 512 * kMegabyte;
-
-/// A path that goes on for minutes.
-json endless() {
-  json request = json::parse(column_request("endless"));
-  request["analysis"] = {{"type", "path"},
-                         {"discretization", {{"elements", 2000}, {"order", 5}}},
-                         {"step", {{"initial", 1e-6}, {"max", 1e-6}}},
-                         {"stop", {{"steps", 100'000}}},
-                         {"output", {{"states", "none"}}}};
-  return request;
-}
 
 class RunnerTest : public testing::Test {
  protected:
@@ -126,23 +114,21 @@ TEST_F(RunnerTest, OneThatIsKilledIsReplacedAndTheJobTriedAgain) {
 TEST_F(RunnerTest, AJobThatKillsItsRunnersIsGivenUp) {
   ChildRunner runner(options(), counters_);
   const JobRun run =
-      runner.run_job(endless().dump(), {{}, [&](const Progress&) { ::kill(runner.process(), SIGABRT); }});
+      runner.run_job(endless_request(), {{}, [&](const Progress&) { ::kill(runner.process(), SIGABRT); }});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "crashed");
   EXPECT_THAT(run.failure->detail, HasSubstr("2 times"));
   EXPECT_TRUE(runner.run_job(column_request(), {}).result);
 }
 
+/// One that did not hear of the stop would be killed after its grace.
 TEST_F(RunnerTest, OneThatStopsIsKept) {
-  ChildRunner runner(options(), counters_);
+  ChildRunnerOptions patient = options();
+  patient.grace = kPatience;
+  ChildRunner runner(patient, counters_);
   std::stop_source stop;
-  std::jthread stopper([&] {
-    std::this_thread::sleep_for(milliseconds(200));
-    stop.request_stop();
-  });
-  const auto start = steady_clock::now();
-  const JobRun run = runner.run_job(endless().dump(), {stop.get_token()});
-  EXPECT_LT(steady_clock::now() - start, milliseconds(2000));
+  const JobRun run =
+      runner.run_job(endless_request(), {stop.get_token(), [&](const Progress&) { stop.request_stop(); }});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "cancelled");
   EXPECT_EQ(counters_.killed, 0);
@@ -155,14 +141,10 @@ TEST_F(RunnerTest, OneThatDoesNotStopIsKilledAfterItsGrace) {
   brief.grace = milliseconds(300);
   ChildRunner runner(brief, counters_);
   std::stop_source stop;
-  std::jthread stopper([&] {
-    std::this_thread::sleep_for(milliseconds(100));
-    ::kill(runner.process(), SIGSTOP);
-    stop.request_stop();
-  });
-  const auto start = steady_clock::now();
-  const JobRun run = runner.run_job(endless().dump(), {stop.get_token()});
-  EXPECT_LT(steady_clock::now() - start, milliseconds(2000));
+  const JobRun run = runner.run_job(endless_request(), {stop.get_token(), [&](const Progress&) {
+                                                          ::kill(runner.process(), SIGSTOP);
+                                                          stop.request_stop();
+                                                        }});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "cancelled");
   EXPECT_EQ(counters_.killed, 1);
@@ -173,12 +155,12 @@ TEST_F(RunnerTest, NewsOfALongAnalysisArriveWhileItRuns) {
   ChildRunner runner(options(), counters_);
   std::stop_source stop;
   int news = 0;
-  const JobRun run = runner.run_job(endless().dump(), {stop.get_token(), [&](const Progress& progress) {
-                                                         EXPECT_GE(progress.step, news);
-                                                         if (++news == 5) {
-                                                           stop.request_stop();
-                                                         }
-                                                       }});
+  const JobRun run = runner.run_job(endless_request(), {stop.get_token(), [&](const Progress& progress) {
+                                                          EXPECT_GE(progress.step, news);
+                                                          if (++news == 5) {
+                                                            stop.request_stop();
+                                                          }
+                                                        }});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "cancelled");
   EXPECT_GE(news, 5);
@@ -197,7 +179,7 @@ TEST_F(RunnerTest, OneThatTalksNonsenseIsOneThatCrashed) {
   const TempDir folder;
   for (const char* bytes : {"head -c 64 /dev/zero | tr '\\0' '\\377'", "head -c 64 /dev/zero"}) {
     ChildRunnerOptions astray = options();
-    astray.executable = program_in(folder, "{ " + std::string(bytes) + "; } >&0\nsleep 60");
+    astray.executable = program_in(folder, "{ " + std::string(bytes) + "; } >&0\nexec sleep 3600");
     ChildRunner runner(astray, counters_);
     const JobRun run = runner.run_job(column_request(), {});
     ASSERT_TRUE(run.failure);
@@ -210,7 +192,7 @@ TEST_F(RunnerTest, OneThatSendsHalfAFrameIsKilledAfterItsGrace) {
   const TempDir folder;
   ChildRunnerOptions half = options();
   half.executable =
-      program_in(folder, R"(printf '\350\003\0\0\0\0\0\0\010\0\0\0\0\0\0\0part' >&0; sleep 60)");
+      program_in(folder, R"(printf '\350\003\0\0\0\0\0\0\010\0\0\0\0\0\0\0part' >&0; exec sleep 3600)");
   half.grace = milliseconds(300);
   ChildRunner runner(half, counters_);
   std::stop_source stop;
@@ -218,9 +200,7 @@ TEST_F(RunnerTest, OneThatSendsHalfAFrameIsKilledAfterItsGrace) {
     std::this_thread::sleep_for(milliseconds(300));
     stop.request_stop();
   });
-  const auto start = steady_clock::now();
   const JobRun run = runner.run_job(column_request(), {stop.get_token()});
-  EXPECT_LT(steady_clock::now() - start, milliseconds(5000));
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "cancelled");
   EXPECT_EQ(counters_.killed, 1);
@@ -230,7 +210,7 @@ TEST_F(RunnerTest, OneThatSendsHalfAFrameIsKilledAfterItsGrace) {
 TEST_F(RunnerTest, OneThatDoesNotTakeItsTaskIsOneThatCrashed) {
   const TempDir folder;
   ChildRunnerOptions deaf = options(kEnough, 1);
-  deaf.executable = program_in(folder, "exec sleep 60");
+  deaf.executable = program_in(folder, "exec sleep 3600");
   ChildRunner runner(deaf, counters_);
   const JobRun run = runner.run_job(column_request() + std::string(4 * kMegabyte, ' '), {});
   ASSERT_TRUE(run.failure);
@@ -382,7 +362,7 @@ TEST_F(RunnerService, TheRequestThatEndedTheServiceIsOneFailedJob) {
       post(port(), "/v1/jobs", bomb.dump(), {"Content-Type: application/json", "Prefer: wait=60"});
   EXPECT_EQ(reply.status, 422) << reply.body.substr(0, 300);
   EXPECT_EQ(json::parse(reply.body)["code"], "memory_limit");
-  EXPECT_EQ(json::parse(get(port(), innocent, {"Prefer: wait=20"}).body)["status"], "successful");
+  EXPECT_EQ(json::parse(get(port(), innocent, {"Prefer: wait=60"}).body)["status"], "successful");
   EXPECT_EQ(get(port(), "/livez").status, 200);
 }
 
@@ -423,17 +403,11 @@ TEST_F(RunnerService, AnAnalysisThatDoesNotHearThatItIsDismissedIsEnded) {
       post(port(), "/v1/jobs", deaf().dump(), {"Content-Type: application/json", "Prefer: respond-async"});
   ASSERT_EQ(created.status, 201) << created.body;
   const std::string job = created.header("Location");
-  for (int i = 0; i < 200 && json::parse(get(port(), job).body)["status"] != "running"; ++i) {
-    std::this_thread::sleep_for(milliseconds(10));
-  }
-  std::this_thread::sleep_for(milliseconds(300));
-  const auto start = steady_clock::now();
+  ASSERT_TRUE(eventually([&] { return json::parse(get(port(), job).body)["status"] == "running"; }));
+  std::this_thread::sleep_for(milliseconds(300));  // it is where it does not hear
   EXPECT_EQ(call(port(), "DELETE", job, "", {}).status, 204);
-  EXPECT_EQ(
-      post(port(), "/v1/jobs", column_request("next"), {"Content-Type: application/json", "Prefer: wait=30"})
-          .status,
-      200);
-  EXPECT_LT(steady_clock::now() - start, milliseconds(6000));
+  // the answer comes within the longest wait of a request; the analysis alone takes longer
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request("next")).status, 200);
 }
 
 }  // namespace

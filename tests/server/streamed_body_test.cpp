@@ -63,8 +63,8 @@ class StreamedBody : public ServiceTest {
     ASSERT_TRUE(service_->start().ok());
     const Reply reply = post(port(), "/v1/sweeps", column_sweep(kPoints));
     sweep_ = reply.header("Location");
-    for (int i = 0; i < 30 && json::parse(get(port(), sweep_).body)["progress"] != 100; ++i) {
-      get(port(), sweep_, {"Prefer: wait=10"});
+    for (int i = 0; i < 5 && json::parse(get(port(), sweep_).body)["progress"] != 100; ++i) {
+      get(port(), sweep_, {"Prefer: wait=60"});
     }
   }
   [[nodiscard]] double metric(const std::string& name) const {
@@ -78,24 +78,23 @@ class StreamedBody : public ServiceTest {
     socket->send("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
     return socket;
   }
-  /// Whether it becomes so within ten seconds.
-  template <class Condition>
-  static bool eventually(const Condition& condition) {
-    for (int i = 0; i < 200; ++i) {
-      if (condition()) {
-        return true;
-      }
-      std::this_thread::sleep_for(50ms);
+  /// How many requests for the table were answered, to the end or not.
+  [[nodiscard]] int tables_begun() const {
+    const std::string log = log_text_.text();
+    int count = 0;
+    for (std::size_t at = 0; (at = log.find(kTableRoute, at)) != std::string::npos; ++at) {
+      ++count;
     }
-    return false;
+    return count;
   }
+  static constexpr const char* kTableRoute = R"("route":"/v1/sweeps/{id}/table")";
 
   std::shared_ptr<LongTexts> texts_ = std::make_shared<LongTexts>();
   std::string sweep_;
 };
 
 TEST_F(StreamedBody, ALargeTableIsTheSameInEveryFormAndPackedOrNot) {
-  start_with(30s, 64 << 20);
+  start_with(1h, 64 << 20);
   const Reply table = get(port(), sweep_ + "/table");
   EXPECT_EQ(table.header("Transfer-Encoding"), "chunked");
   EXPECT_EQ(table.header("Content-Length"), "");
@@ -120,7 +119,7 @@ TEST_F(StreamedBody, ALargeTableIsTheSameInEveryFormAndPackedOrNot) {
 }
 
 TEST_F(StreamedBody, AConnectionServesOnAfterATableAndAnOldClientGetsItPlain) {
-  start_with(30s, 64 << 20);
+  start_with(1h, 64 << 20);
   Socket socket(port());
   for (int i = 0; i < 2; ++i) {
     socket.send("GET " + sweep_ + "/table HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -133,8 +132,8 @@ TEST_F(StreamedBody, AConnectionServesOnAfterATableAndAnOldClientGetsItPlain) {
   EXPECT_EQ(json::parse(text.substr(text.find("\r\n\r\n") + 4))["rows"].size(), kPoints);
 }
 
-TEST_F(StreamedBody, ClientsThatDoNotReadHoldAPieceEachAndAreLetGo) {
-  start_with(1s, 64 << 20);
+TEST_F(StreamedBody, ClientsThatDoNotReadHoldAPieceEach) {
+  start_with(1h, 64 << 20);
   std::vector<std::unique_ptr<Socket>> clients;
   for (int i = 0; i < 8; ++i) {
     clients.push_back(stalled(sweep_ + "/table"));
@@ -142,24 +141,50 @@ TEST_F(StreamedBody, ClientsThatDoNotReadHoldAPieceEachAndAreLetGo) {
   // the answer with the metrics is counted, too, while it is on its way
   EXPECT_TRUE(eventually([&] { return metric("snapthrough_buffered_bytes") > 128 * 1024; }));
   EXPECT_LT(metric("snapthrough_buffered_bytes"), 8 * 256 * 1024);
-  EXPECT_TRUE(eventually([&] { return metric("snapthrough_connections") <= 1; })) << "nobody read";
+  clients.clear();
+  EXPECT_TRUE(eventually([&] { return metric("snapthrough_connections") <= 1; }));
   EXPECT_TRUE(eventually([&] { return metric("snapthrough_buffered_bytes") == 0; }));
 }
 
+TEST_F(StreamedBody, ClientsThatDoNotReadAreLetGo) {
+  start_with(1s, 64 << 20);
+  std::vector<std::unique_ptr<Socket>> clients;
+  for (int i = 0; i < 8; ++i) {
+    clients.push_back(stalled(sweep_ + "/table"));
+  }
+  ASSERT_TRUE(eventually([&] { return tables_begun() == 8; }));
+  EXPECT_TRUE(eventually([&] { return metric("snapthrough_connections") <= 1; })) << "nobody read";
+  EXPECT_TRUE(eventually([&] { return metric("snapthrough_buffered_bytes") == 0; }));
+  for (const auto& client : clients) {
+    EXPECT_FALSE(client->receive().whole);
+  }
+}
+
+/// An attempt in which a busy machine keeps this client from reading for long proves nothing, and is
+/// repeated.
 TEST_F(StreamedBody, AClientThatReadsSlowlyIsServedForAsLongAsItReads) {
-  start_with(400ms, 64 << 20);
+  constexpr std::chrono::milliseconds kTime = 1s;
+  start_with(kTime, 64 << 20);
   const std::string expected = get(port(), sweep_ + "/table").body;
-  const auto begin = std::chrono::steady_clock::now();
-  Socket socket(port());
-  socket.send("GET " + sweep_ + "/table HTTP/1.0\r\n\r\n");
-  std::string text = socket.read_slowly(64 * 1024, 15ms);
-  EXPECT_GT(std::chrono::steady_clock::now() - begin, 1200ms) << "three times its time";
+  std::string text;
+  std::chrono::steady_clock::duration took{};
+  const auto was_read_steadily = [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    Socket socket(port());
+    socket.send("GET " + sweep_ + "/table HTTP/1.0\r\n\r\n");
+    std::chrono::milliseconds longest{};
+    text = socket.read_slowly(64 * 1024, 30ms, longest);
+    took = std::chrono::steady_clock::now() - begin;
+    return longest < kTime / 2;
+  };
+  ASSERT_TRUE(eventually(was_read_steadily));
+  EXPECT_GT(took, 3 * kTime);
   EXPECT_EQ(text.substr(text.find("\r\n\r\n") + 4), expected);
 }
 
 TEST_F(StreamedBody, ATableOfASweepThatIsTriedAgainMeanwhileIsSeenToBeIncomplete) {
   texts_->failing = true;
-  start_with(30s, 64 << 20);
+  start_with(1h, 64 << 20);
   const auto client = stalled(sweep_ + "/table");
   ASSERT_TRUE(eventually([&] { return metric("snapthrough_buffered_bytes") > 0; }));
   texts_->failing = false;
@@ -171,7 +196,7 @@ TEST_F(StreamedBody, ATableOfASweepThatIsTriedAgainMeanwhileIsSeenToBeIncomplete
 }
 
 TEST_F(StreamedBody, LargeAnswersAreRefusedWhileTooMuchIsBeingSentAndSmallOnesAreNot) {
-  start_with(30s, 512 * 1024);
+  start_with(1h, 512 * 1024);
   std::vector<std::unique_ptr<Socket>> clients;
   for (int i = 0; i < 8; ++i) {
     clients.push_back(stalled(sweep_ + "/table"));

@@ -190,7 +190,7 @@ def read_arguments():
     parser.add_argument("--structures", nargs="+", metavar="TEXT")
     parser.add_argument("--variations", nargs="+", metavar="TEXT")
     parser.add_argument("--keep", metavar="FOLDER", help="where requests of differences are written")
-    parser.add_argument("--seconds", type=float, default=3, help="time for one analysis")
+    parser.add_argument("--seconds", type=float, default=3, help="processor time for one analysis")
     parser.add_argument("--sine", action="store_true")
     parser.add_argument("--record", action="store_true")
     parser.add_argument("--list", action="store_true")

@@ -3,7 +3,10 @@ import json
 import math
 import pathlib
 import re
-import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import command_line  # noqa: E402
 
 
 class Point:
@@ -54,7 +57,7 @@ def read_points(document):
 
 
 class Program:
-    """The executable; a run that takes longer than `seconds` is ended and answers `timeout`."""
+    """The executable; a run that takes more than `seconds` of processor time is ended and answers `timeout`."""
 
     def __init__(self, binary, seconds=60.0):
         self.binary = binary
@@ -63,10 +66,8 @@ class Program:
 
     def solve(self, request):
         self.runs += 1
-        try:
-            run = subprocess.run([self.binary, "solve", "-"], input=json.dumps(request), capture_output=True,
-                                 text=True, timeout=self.seconds, check=False)
-        except subprocess.TimeoutExpired:
+        run = command_line.run_bounded([self.binary, "solve", "-"], json.dumps(request), self.seconds)
+        if run is None:
             return Answer("timeout")
         if run.returncode not in (0, 3):
             first_line = run.stderr.strip().split("\n")[0]

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { violations } from './support/axe.mjs';
-import { downloaded, drawnPath, openPage, settled, slide } from './support/browser.mjs';
+import { downloaded, drawnPath, eventually, openPage, settled, slide } from './support/browser.mjs';
 import { browser, close, service } from './support/stage.mjs';
 
 const studio = (problem = 'buried_pipe') => openPage(browser, `${service.url}/#/studio?problem=${problem}`);
@@ -45,11 +45,10 @@ test('the latest value of a slider wins, with at most two requests in flight and
   await settled(page);
   assert.equal(most, 2);
   assert.notEqual(await drawnPath(page), start);
-  await page.waitForTimeout(1500);
   const value = await page.getByLabel('Soil stiffness, value in kN/m²').inputValue();
   assert.equal(value.replace(/\s/g, ''), '126000');  // 2000 (200000 / 2000)^0.9
-  const { jobs } = await (await fetch(`${service.url}/v1/jobs?label=studio`)).json();
-  assert.ok(jobs.length <= 3, `${jobs.length} jobs are left`);
+  const jobs = async () => (await (await fetch(`${service.url}/v1/jobs?label=studio`)).json()).jobs;
+  await eventually(async () => (await jobs()).length <= 3, 'few jobs are left');
   await close(page);
 });
 
@@ -62,11 +61,10 @@ test('the jobs of a tab go with it', async () => {
   const before = new Set(await left());
   await slide(page, 'Ground stiffness', 600, 900);
   await settled(page);
-  await page.waitForTimeout(1000);
-  assert.ok((await left()).some((id) => !before.has(id)));
+  const added = async () => (await left()).filter((id) => !before.has(id));
+  await eventually(async () => (await added()).length > 0, 'the tab has jobs');
   await page.close({ runBeforeUnload: true });
-  await new Promise((resolve) => setTimeout(resolve, 1000));
-  assert.deepEqual((await left()).filter((id) => !before.has(id)), []);
+  await eventually(async () => (await added()).length === 0, 'they are removed');
   await page.context().close();
 });
 

@@ -136,8 +136,10 @@ class Client:
         """
         status = self.submit_sweep(sweep, label=label, metadata=metadata)
         ends = stop or Stop()
-        columns = self.table(status, count=1).columns
-        return SweepRun(columns, status.points, self._batches(status, ends), on_progress, progress, ends)
+        first = self.table(status, count=1)
+        about: Dict[str, Any] = {"program": first.program, "request_sha256": first.request_sha256}
+        return SweepRun(first.columns, status.points, self._batches(status, ends, about), on_progress, progress, ends,
+                        about)
 
     def submit_sweep(self, sweep: Any, *, label: Optional[str] = None, metadata: Optional[Mapping[str, str]] = None,
                      callback: Optional[str] = None) -> results.Sweep:
@@ -163,7 +165,7 @@ class Client:
             part = f"?format=json&first={begin}&count={max(1, min(_ROWS, end - begin))}"
             text = self._checked(self._http.send("GET", _sweep(sweep) + "/table" + part)).body.decode("utf-8")
             others, rows = _spans.parts_of_table(text)
-            table = table or Table(others["columns"], status.points)
+            table = table or Table(others["columns"], status.points, others)
             for point, (row, own) in zip(others["points"], rows):
                 table.append(point, row, own)
         assert table is not None
@@ -274,8 +276,11 @@ class Client:
         if response.status not in (200, 404, 409):
             raise service_error(response)
 
-    def _batches(self, status: results.Sweep, stop: Stop) -> Batches:
-        """Rows as they come, in the order of points; whatever ends this early dismisses the sweep."""
+    def _batches(self, status: results.Sweep, stop: Stop, about: Dict[str, Any]) -> Batches:
+        """Rows as they come, in the order of points; whatever ends this early dismisses the sweep.
+
+        `about` gets what computed them.
+        """
         point = 0
         path = _sweep(status)
         detach = stop.attach(lambda: self._dismiss_quietly(path))
@@ -283,6 +288,7 @@ class Client:
             for _ in self.sweep_events(status):
                 while point < status.points:
                     table = self.table(status, point, _ROWS)
+                    about["program"] = table.program
                     batch = [(number, (row, table.text_of(index)))
                              for index, (number, row) in enumerate(zip(table.points, table.rows))
                              if number == point + index]

@@ -112,7 +112,7 @@ class Local:
         spans = _engine.missing_spans(total, unit, list(known))
         engine = _engine.Engine(task, functools.partial(_rows_of, document), spans, unit, pool, workers)
         batches = _stopped(_engine.in_order(engine.run(), known, total), native.request, ends)
-        return SweepRun(columns, total, batches, on_progress, progress, ends)
+        return SweepRun(columns, total, batches, on_progress, progress, ends, head)
 
     def plot(self, document: Any, **options: Any) -> str:
         """Draws a result or a table as SVG text, as `snapthrough plot` does.

@@ -1,5 +1,5 @@
 """A sweep that is being computed: an iterator over its rows that keeps them."""
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 
 from ._errors import Cancelled, Interrupted
 from ._progress import OnProgress, Progress, ProgressLine, Stop
@@ -24,10 +24,10 @@ class SweepRun(Iterator[Dict[str, Any]]):
     """
 
     def __init__(self, columns: Sequence[str], total: int, batches: Batches, on_progress: Optional[OnProgress],
-                 progress: Optional[bool], stop: Stop) -> None:
+                 progress: Optional[bool], stop: Stop, about: Optional[Mapping[str, Any]] = None) -> None:
         self.columns = list(columns)
         self.total = total
-        self._table = Table(columns, total)
+        self._table = Table(columns, total, about)
         self._batches = batches
         self._on_progress = on_progress
         self._line = ProgressLine(total, progress)

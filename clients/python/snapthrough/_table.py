@@ -1,7 +1,7 @@
 """Tables of sweeps: rows with the digits that they were received with, as CSV, JSON, NDJSON and data frames."""
 import json
 import os
-from typing import IO, Any, Dict, Iterator, List, Optional, Sequence, Union
+from typing import IO, Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
 
 from . import _spans
 
@@ -22,7 +22,9 @@ def csv_field(field: str) -> str:
 
 def csv_text(text: str) -> str:
     """A text as a field: one that a spreadsheet would take for a formula begins with an apostrophe."""
-    return csv_field("'" + text if text[:1] and text[0] in "=+-@\t\r" else text)
+    first = text.lstrip(" \t\r\n\v\f")[:1]
+    formula = first and first in "=+-@\uff1d\uff0b\uff0d\uff20" or text[:1] and text[0] in "\t\r"
+    return csv_field("'" + text if formula else text)
 
 
 def csv_value(value: Any, text: str) -> str:
@@ -37,10 +39,12 @@ class Table:
 
     `columns` are the names of the parameters, the pointers of the outputs, and "error"; `rows` are lists in that
     order; `points` has the number of each row's point, from 0; `total` is the number of points of the sweep. A row's
-    "error" is None, or {"code", "detail"} of a point that failed. Iterating gives each row as a dictionary.
+    "error" is None, or {"code", "detail"} of a point that failed. Iterating gives each row as a dictionary. `program`
+    and `request_sha256` tell what computed the rows, and of which document; None where that is not known.
     """
 
-    def __init__(self, columns: Sequence[str], total: int) -> None:
+    def __init__(self, columns: Sequence[str], total: int, about: Optional[Mapping[str, Any]] = None) -> None:
+        self._about: Mapping[str, Any] = {} if about is None else about
         self.columns: List[str] = list(columns)
         self.total = total
         self.rows: List[List[Any]] = []
@@ -52,6 +56,18 @@ class Table:
         self.rows.append(row)
         self.points.append(point)
         self._texts.append(text)
+
+    @property
+    def program(self) -> Optional[Dict[str, str]]:
+        """What computed the rows, by name, version, build and target; None where that is not known (yet)."""
+        program: Optional[Dict[str, str]] = self._about.get("program")
+        return program
+
+    @property
+    def request_sha256(self) -> Optional[str]:
+        """The SHA-256 of the canonical sweep document; None where that is not known."""
+        digest: Optional[str] = self._about.get("request_sha256")
+        return digest
 
     @property
     def complete(self) -> bool:
@@ -125,7 +141,8 @@ class Table:
             yield ",".join(csv_value(value, own) for value, own in values) + "\n"
 
     def _json_pieces(self) -> Iterator[str]:
-        yield '{"columns": ' + _dump(self.columns) + ',\n "rows": ['
+        yield (f'{{"kind": "table", "program": {_dump(self.program)}, "request_sha256": {_dump(self.request_sha256)},\n'
+               ' "columns": ' + _dump(self.columns) + ',\n "rows": [')
         for index, text in enumerate(self._texts):
             yield (",\n  " if index else "\n  ") + text
         yield '\n ],\n "points": [' + ",".join(map(str, self.points)) + "]}\n"
@@ -165,7 +182,7 @@ def read_table(path: Union[str, "os.PathLike[str]"]) -> Table:
         return _read_ndjson(text)
     others, rows = _spans.parts_of_table(text)
     points = others.get("points") or range(len(rows))
-    table = Table(others["columns"], len(rows))
+    table = Table(others["columns"], len(rows), others)
     for point, (row, own) in zip(points, rows):
         table.append(point, row, own)
     return table

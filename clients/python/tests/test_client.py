@@ -123,7 +123,7 @@ class Jobs(WithService):
         with self.assertRaises(snapthrough.ServiceError) as caught:
             self.client.job(job)
         self.assertEqual((caught.exception.status, caught.exception.problem.type),
-                         (404, "urn:snapthrough:problem:no-such-job"))
+                         (410, "urn:snapthrough:problem:deleted"))
 
     def test_events_of_a_job(self):
         events = list(self.client.events(self.client.submit(request("arch"))))

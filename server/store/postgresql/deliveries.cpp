@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "server/store/postgresql/parts.h"
 
 namespace snapthrough::server::postgresql {
@@ -7,17 +9,22 @@ class PostgresqlDeliveryStore final : public DeliveryStore {
  public:
   PostgresqlDeliveryStore(Database& database, Clock clock) : database_(database), clock_(clock) {}
 
-  StatusOr<std::optional<Delivery>> next(std::string_view origin, std::chrono::milliseconds hold,
-                                         Time now) override {
+  using DeliveryStore::next;
+  StatusOr<std::optional<Delivery>> next(std::string_view origin, const UnderWay& under_way,
+                                         std::chrono::milliseconds hold, Time now) override {
     // Nothing is written while nothing is due. A delivery that is taken is due later for other processes.
     static constexpr std::string_view kSql =
         "WITH clock AS (SELECT coalesce($2, snapthrough_now()) AS moment),"
         " mine AS MATERIALIZED (SELECT number FROM deliveries WHERE origin = $1"
-        "  AND due_us <= (SELECT moment FROM clock) ORDER BY due_us, number LIMIT 1 FOR UPDATE SKIP LOCKED),"
+        "  AND due_us <= (SELECT moment FROM clock)"
+        "  AND number <> ALL ($4) AND coalesce((SELECT owner FROM jobs WHERE seq = job),"
+        "   (SELECT owner FROM sweeps WHERE seq = sweep)) <> ALL ($5)"
+        "  ORDER BY due_us, number LIMIT 1 FOR UPDATE SKIP LOCKED),"
         " taken AS (UPDATE deliveries SET due_us = CASE WHEN $3 > 0 THEN (SELECT moment FROM clock) + $3"
         "   ELSE due_us END WHERE number = (SELECT number FROM mine)"
         "  RETURNING number, job, sweep, address, attempts)"
-        " SELECT number, coalesce(jobs.id, sweeps.id), sweep IS NOT NULL, address, attempts FROM taken"
+        " SELECT number, coalesce(jobs.id, sweeps.id), sweep IS NOT NULL, address, attempts,"
+        " coalesce(jobs.owner, sweeps.owner) FROM taken"
         " LEFT JOIN jobs ON jobs.seq = job LEFT JOIN sweeps ON sweeps.seq = sweep";
     const auto use = [](std::span<const Rows> all) -> StatusOr<std::optional<Delivery>> {
       const Rows& rows = all.front();
@@ -25,11 +32,14 @@ class PostgresqlDeliveryStore final : public DeliveryStore {
         return std::optional<Delivery>();
       }
       return std::optional(Delivery{rows[0].integer(0), rows[0].text(1), rows[0].boolean(2), rows[0].text(3),
-                                    static_cast<int>(rows[0].integer(4))});
+                                    static_cast<int>(rows[0].integer(4)), rows[0].text(5)});
     };
-    return database_.write_at_once<std::optional<Delivery>>(
-        {{kSql, Parameters().add(origin).add(clock_.at(now)).add(microseconds(hold))}}, Durability::unsynced,
-        use);
+    Parameters parameters;
+    parameters.add(origin).add(clock_.at(now)).add(microseconds(hold));
+    parameters.add(std::span<const std::int64_t>(under_way.numbers));
+    parameters.add(std::span<const std::string>(under_way.owners));
+    return database_.write_at_once<std::optional<Delivery>>({{kSql, std::move(parameters)}},
+                                                            Durability::unsynced, use);
   }
 
   Status postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) override {

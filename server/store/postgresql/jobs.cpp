@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "api/provenance.h"
 #include "server/store/crashes.h"
 #include "server/store/postgresql/list.h"
 #include "server/store/postgresql/parts.h"
@@ -27,9 +28,10 @@ Statement insert_job(const NewJob& job, const Clock& clock) {
   static constexpr std::string_view kSql =
       "WITH job AS (INSERT INTO jobs (id, title, analysis_type, created_us, owner, content_key, status, "
       "label,"
-      "  metadata, callback, bytes, attempt, started_us, crashes)"
+      "  metadata, callback, bytes, attempt, started_us, crashes, request_sha256)"
       " SELECT $1, $2, $3, moment, $5, $6, $7, $8, $9, $10, $11,"
-      "  $15 + CASE WHEN $13 IS NOT NULL THEN 1 ELSE 0 END, CASE WHEN $13 IS NOT NULL THEN moment END, $16"
+      "  $15 + CASE WHEN $13 IS NOT NULL THEN 1 ELSE 0 END, CASE WHEN $13 IS NOT NULL THEN moment END, $16, "
+      "$17"
       " FROM (SELECT coalesce($4, snapthrough_now()) AS moment) AS clock RETURNING seq, started_us),"
       " lease AS (INSERT INTO job_leases (job, worker, until_us)"
       "  SELECT seq, $13, started_us + $14 FROM job WHERE $13 IS NOT NULL)"
@@ -44,7 +46,8 @@ Statement insert_job(const NewJob& job, const Clock& clock) {
   row.add(lease ? std::optional<std::string_view>(lease->worker) : std::nullopt);
   row.add(lease ? microseconds(lease->until - job.created) : std::int64_t{0})
       .add(job.attempt)
-      .add(job.crashes);
+      .add(job.crashes)
+      .add(text_or_null(job.request_sha256));
   return {kSql, std::move(row)};
 }
 
@@ -81,7 +84,8 @@ void copy_job(Connection& connection, const NewJob& job, std::int64_t original, 
       "INSERT INTO critical_points (job, number, " + std::string(kCriticalPointColumns) + ") " + kNew +
           "number, " + kCriticalPointColumns + " FROM critical_points WHERE job = $2",
       "UPDATE jobs SET " + becomes(JobEvent::finish) +
-          ", finished_us = started_us, bytes = bytes + (SELECT size FROM results WHERE job = $2) WHERE id = "
+          ", program = (SELECT program FROM jobs WHERE seq = $2), finished_us = started_us, bytes = bytes + "
+          "(SELECT size FROM results WHERE job = $2) WHERE id = "
           "$1",
       "DELETE FROM job_leases USING jobs WHERE job = seq AND id = $1 AND $2 <> 0"};
   NewJob running = job;
@@ -141,6 +145,7 @@ class PostgresqlStore final : public Store {
         clock_(clock),
         sweeps_(sweeps_in(database_, clock)),
         deliveries_(deliveries_in(database_, clock)),
+        ledger_(ledger_in(database_, clock)),
         neighbours_(neighbours_in(database_)) {}
 
   using Store::submit;
@@ -244,15 +249,18 @@ class PostgresqlStore final : public Store {
     return database_.write_at_once<std::vector<std::string>>({{kSql, held}}, Durability::unsynced, use);
   }
 
-  Status finish(const Claim& claim, const JobResult& result, Time now) override {
+  using Store::finish;
+  Status finish(const Claim& claim, const JobResult& result, const WorkUsage& usage, Time now) override {
     std::vector<Statement> statements;
     add_document(statements, claim.id, result);
     add_path(statements, claim.id, result.branches, result.critical_points);
     return end(claim, JobEvent::finish, std::move(statements),
-               static_cast<std::int64_t>(result.document.size()), now);
+               static_cast<std::int64_t>(result.document.size()), usage, now);
   }
 
-  Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) override {
+  using Store::fail;
+  Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached,
+              const WorkUsage& usage, Time now) override {
     std::vector<Statement> statements{
         {"INSERT INTO failures (job, code, detail, reached)"
          " VALUES ((SELECT seq FROM jobs WHERE id = $1), $2, $3, $4)",
@@ -263,7 +271,7 @@ class PostgresqlStore final : public Store {
              .add_bytes_or_null(failure.reached)}};
     add_path(statements, claim.id, reached.branches, reached.critical_points);
     return end(claim, JobEvent::fail, std::move(statements),
-               static_cast<std::int64_t>(failure.reached.size()), now);
+               static_cast<std::int64_t>(failure.reached.size()), usage, now);
   }
 
   Status requeue(const Claim& claim) override {
@@ -329,17 +337,44 @@ class PostgresqlStore final : public Store {
     });
   }
 
-  StatusOr<bool> remove(std::string_view id) override {
+  using Store::remove;
+  StatusOr<bool> remove(std::string_view id, std::optional<Time> noted) override {
+    static constexpr std::string_view kSql =
+        "WITH gone AS (DELETE FROM jobs WHERE id = $1 RETURNING owner, id)"
+        " INSERT INTO audit (owner, at_us, event, sweep, entry)"
+        " SELECT owner, coalesce($2, snapthrough_now()), 'deleted', false, id FROM gone";
+    Statement statement{"DELETE FROM jobs WHERE id = $1", Parameters().add(id)};
+    if (noted) {
+      statement = {kSql, Parameters().add(id).add(clock_.at(*noted))};
+    }
     return database_.write_at_once<bool>(
-        {{"DELETE FROM jobs WHERE id = $1", Parameters().add(id)}}, Durability::synced,
+        {statement}, Durability::synced,
         [](std::span<const Rows> all) -> StatusOr<bool> { return all.front().changed() > 0; });
+  }
+
+  StatusOr<bool> set_key(std::string_view id, std::string_view sha256) override {
+    return database_.write_at_once<bool>(
+        {{"UPDATE jobs SET key_sha256 = $2 WHERE id = $1", Parameters().add(id).add(sha256)}},
+        Durability::synced,
+        [](std::span<const Rows> all) -> StatusOr<bool> { return all.front().changed() > 0; });
+  }
+
+  StatusOr<std::optional<std::string>> owner_by_key(std::string_view id, std::string_view sha256) override {
+    return database_.read<std::optional<std::string>>(
+        [&](Connection& connection) -> std::optional<std::string> {
+          const Rows rows = connection.run("SELECT owner FROM jobs WHERE id = $1 AND key_sha256 = $2",
+                                           Parameters().add(id).add(sha256));
+          return rows.empty() ? std::nullopt : std::optional(rows[0].text(0));
+        });
   }
 
   StatusOr<int> retire(std::chrono::seconds age, int most, Time now) override {
     static constexpr std::string_view kSql =
-        "DELETE FROM jobs WHERE seq IN (SELECT seq FROM jobs WHERE"
+        "WITH gone AS (DELETE FROM jobs WHERE seq IN (SELECT seq FROM jobs WHERE"
         " finished_us < coalesce($1, snapthrough_now()) - $2 ORDER BY finished_us LIMIT $3 FOR UPDATE SKIP "
-        "LOCKED)";
+        "LOCKED) RETURNING owner, id)"
+        " INSERT INTO audit (owner, at_us, event, sweep, entry)"
+        " SELECT owner, coalesce($1, snapthrough_now()), 'retired', false, id FROM gone";
     return database_.write_at_once<int>(
         {{kSql, Parameters().add(clock_.at(now)).add(microseconds(age)).add(most)}}, Durability::synced,
         [](std::span<const Rows> all) -> StatusOr<int> { return static_cast<int>(all.front().changed()); });
@@ -469,6 +504,7 @@ class PostgresqlStore final : public Store {
   void write_metrics(std::string& text) const override { database_.write_metrics(text); }
   SweepStore& sweeps() override { return *sweeps_; }
   DeliveryStore& deliveries() override { return *deliveries_; }
+  LedgerStore& ledger() override { return *ledger_; }
   NeighbourStore* neighbours() override { return neighbours_.get(); }
 
  private:
@@ -482,17 +518,27 @@ class PostgresqlStore final : public Store {
 
   /// Ends a job under its claim. @param more statements that store its outcome @param bytes size of the
   /// stored documents
-  Status end(const Claim& claim, JobEvent event, std::vector<Statement> more, std::int64_t bytes, Time now) {
+  Status end(const Claim& claim, JobEvent event, std::vector<Statement> more, std::int64_t bytes,
+             const WorkUsage& usage, Time now) {
     static constexpr std::string_view kFence = "SELECT held_job($1, $2, coalesce($3, snapthrough_now()))";
     static constexpr std::string_view kEnd =
-        "UPDATE jobs SET status = $2, finished_us = coalesce($3, snapthrough_now()), bytes = bytes + $4"
-        " WHERE id = $1";
+        "UPDATE jobs SET status = $2, finished_us = coalesce($3, snapthrough_now()), bytes = bytes + $4,"
+        " program = $5, cpu_us = $6, peak_bytes = $7, factorizations = $8 WHERE id = $1";
+    static const std::string kCount =
+        "INSERT INTO usage AS sums (owner, hour, label, slot, jobs, cpu_us, peak_bytes, factorizations)"
+        " SELECT owner, coalesce($2, snapthrough_now()) / 3600000000, coalesce(label, ''), pg_backend_pid() "
+        "% 16,"
+        " 1, $3, $4, $5 FROM jobs WHERE id = $1 " +
+        std::string(kAddUsage);
     std::vector<Statement> statements{
         {kFence, Parameters().add(claim.id).add(claim.attempt).add(clock_.at(now))}};
     statements.insert(statements.end(), std::make_move_iterator(more.begin()),
                       std::make_move_iterator(more.end()));
-    statements.push_back(
-        {kEnd, Parameters().add(claim.id).add(to_string(state_after(event))).add(clock_.at(now)).add(bytes)});
+    Parameters ended = Parameters().add(claim.id).add(to_string(state_after(event))).add(clock_.at(now));
+    ended.add(bytes).add(api::program_text()).add(usage.cpu_us).add(usage.peak_bytes);
+    statements.push_back({kEnd, ended.add(usage.factorizations)});
+    Parameters used = Parameters().add(claim.id).add(clock_.at(now)).add(usage.cpu_us);
+    statements.push_back({kCount, used.add(usage.peak_bytes).add(usage.factorizations)});
     statements.push_back({kDropLease, Parameters().add(claim.id)});
     return database_.write_at_once(std::move(statements));
   }
@@ -503,6 +549,7 @@ class PostgresqlStore final : public Store {
   std::string last_owner_;  ///< whose job was claimed last
   std::unique_ptr<SweepStore> sweeps_;
   std::unique_ptr<DeliveryStore> deliveries_;
+  std::unique_ptr<LedgerStore> ledger_;
   std::unique_ptr<NeighbourStore> neighbours_;
 };
 

@@ -59,7 +59,15 @@ class Clock {
 [[nodiscard]] std::unique_ptr<Store> jobs_in(const std::string& location, int connections, Clock clock);
 [[nodiscard]] std::unique_ptr<SweepStore> sweeps_in(Database& database, Clock clock);
 [[nodiscard]] std::unique_ptr<DeliveryStore> deliveries_in(Database& database, Clock clock);
+[[nodiscard]] std::unique_ptr<LedgerStore> ledger_in(Database& database, Clock clock);
 [[nodiscard]] std::unique_ptr<NeighbourStore> neighbours_in(Database& database);
+
+/// End of an INSERT into `usage AS sums`: adds to the row of the hour and slot, if there is one.
+inline constexpr std::string_view kAddUsage =
+    "ON CONFLICT (owner, hour, label, slot) DO UPDATE SET jobs = sums.jobs + excluded.jobs,"
+    " points = sums.points + excluded.points, cpu_us = sums.cpu_us + excluded.cpu_us,"
+    " peak_bytes = greatest(sums.peak_bytes, excluded.peak_bytes),"
+    " factorizations = sums.factorizations + excluded.factorizations";
 
 /// @brief Applies the steps that the database lacks in one transaction, and records each in
 /// schema_migrations. Other programs that do the same wait, and then find it done.

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "api/provenance.h"
 #include "server/store/crashes.h"
 #include "server/store/postgresql/list.h"
 #include "server/store/postgresql/parts.h"
@@ -18,10 +19,13 @@ const std::string& columns() {
   static const std::string kColumns =
       std::string(kSweepColumns) +
       ", (SELECT ARRAY[sum(successful), sum(failed), sum(reused)]::bigint[] FROM sweep_counts"
-      " WHERE sweep = sweeps.seq)";
+      " WHERE sweep = sweeps.seq), (SELECT max(program) FROM sweep_counts WHERE sweep = sweeps.seq),"
+      " (SELECT sum(cpu_us)::bigint FROM sweep_counts WHERE sweep = sweeps.seq),"
+      " (SELECT max(peak_bytes) FROM sweep_counts WHERE sweep = sweeps.seq),"
+      " (SELECT sum(factorizations)::bigint FROM sweep_counts WHERE sweep = sweeps.seq)";
   return kColumns;
 }
-constexpr int kColumnCount = kSweepColumnCount + 1;
+constexpr int kColumnCount = kSweepColumnCount + 5;
 
 SweepRecord read_record(const ResultRow& row) {
   SweepRecord sweep = read_sweep(row);
@@ -29,6 +33,8 @@ SweepRecord read_record(const ResultRow& row) {
   sweep.successful = counts.at(0);
   sweep.failed = counts.at(1);
   sweep.reused = counts.at(2);
+  sweep.program = row.text(kSweepColumnCount + 1);
+  sweep.usage = read_work_usage(row, kSweepColumnCount + 2);
   return sweep;
 }
 
@@ -57,8 +63,9 @@ constexpr std::string_view kKnownKey =
 void insert_sweep(Connection& connection, const NewSweep& sweep, const Clock& clock) {
   static constexpr std::string_view kSql =
       "WITH sweep AS (INSERT INTO sweeps (id, owner, title, reuse, points, created_us, analysis_type, label,"
-      "  metadata, callback, unit_points)"
-      "  VALUES ($1, $2, $3, $4, $5, coalesce($6, snapthrough_now()), $7, $8, $9, $10, $11) RETURNING seq),"
+      "  metadata, callback, unit_points, request_sha256)"
+      "  VALUES ($1, $2, $3, $4, $5, coalesce($6, snapthrough_now()), $7, $8, $9, $10, $11, $13)"
+      "  RETURNING seq),"
       " document AS (INSERT INTO sweep_documents (sweep, document) SELECT seq, $12 FROM sweep),"
       " units AS (INSERT INTO sweep_left (sweep, first, units) SELECT seq, 0, $5 / $11 FROM sweep)"
       " INSERT INTO sweep_counts (sweep, slot, owner, bytes) SELECT seq, -1, $2, octet_length($12) FROM "
@@ -69,7 +76,7 @@ void insert_sweep(Connection& connection, const NewSweep& sweep, const Clock& cl
   row.add(clock.at(sweep.created)).add(sweep.analysis_type);
   row.add_bytes_or_null(notes.label).add_bytes_or_null(notes.metadata);
   row.add(notes.callback.empty() ? std::nullopt : std::optional<std::string_view>(notes.callback));
-  row.add(sweep.unit_points).add_bytes(sweep.document);
+  row.add(sweep.unit_points).add_bytes(sweep.document).add(text_or_null(sweep.request_sha256));
   connection.run(kSql, row);
   if (sweep.idempotency) {
     Parameters key;
@@ -151,6 +158,32 @@ constexpr const char* kEndRemoved =
     " units AS (DELETE FROM sweep_left WHERE sweep IN (SELECT seq FROM gone)),"
     " leases AS (DELETE FROM sweep_leases WHERE sweep IN (SELECT seq FROM gone))"
     " SELECT count(*) FROM gone";
+
+/// Counts what this program took to compute rows of a sweep. @param now see Clock::at()
+void add_usage(Connection& connection, std::int64_t sweep, std::size_t rows, const WorkUsage& usage,
+               const std::optional<std::int64_t>& now) {
+  static const std::string kLedger =
+      "INSERT INTO usage AS sums (owner, hour, label, slot, points, cpu_us, peak_bytes, factorizations)"
+      " SELECT owner, coalesce($2, snapthrough_now()) / 3600000000, coalesce(label, ''), pg_backend_pid() % "
+      "16,"
+      " $6, $3, $4, $5 FROM sweeps WHERE seq = $1 " +
+      std::string(kAddUsage);
+  static constexpr std::string_view kSweep =
+      "INSERT INTO sweep_counts AS counts (sweep, slot, owner, program, cpu_us, peak_bytes, factorizations)"
+      " SELECT seq, pg_backend_pid() % 16, owner, $2, $3, $4, $5 FROM sweeps WHERE seq = $1"
+      " ON CONFLICT (sweep, slot) DO UPDATE SET program = excluded.program,"
+      " cpu_us = coalesce(counts.cpu_us, 0) + excluded.cpu_us,"
+      " peak_bytes = greatest(counts.peak_bytes, excluded.peak_bytes),"
+      " factorizations = coalesce(counts.factorizations, 0) + excluded.factorizations";
+  if (rows == 0) {
+    return;
+  }
+  Parameters ledger = Parameters().add(sweep).add(now).add(usage.cpu_us).add(usage.peak_bytes);
+  ledger.add(usage.factorizations).add(static_cast<std::int64_t>(rows));
+  Parameters counts = Parameters().add(sweep).add(api::program_text()).add(usage.cpu_us);
+  counts.add(usage.peak_bytes).add(usage.factorizations);
+  connection.run_all(std::vector<Statement>{{kSweep, counts}, {kLedger, ledger}});
+}
 
 /// Largest number of packs (the rows of one lease each) in one read, so that no transaction is open for long.
 /// Reading begins with one pack, since a table is sent piece by piece.
@@ -290,18 +323,26 @@ class PostgresqlSweepStore final : public SweepStore {
           !status.ok()) {
         return status;
       }
+      connection.run(
+          "INSERT INTO audit (owner, at_us, event, sweep, entry)"
+          " SELECT owner, coalesce($2, snapthrough_now()), 'retried', true, id FROM sweeps WHERE seq = $1",
+          Parameters().add(place->row).add(clock_.at(now)));
       forget_failures(connection, place->row, sweep[0].integer(1));
       return SweepChange{place->state, true};
     });
   }
 
-  StatusOr<bool> remove(std::string_view id) override {
+  using SweepStore::remove;
+  StatusOr<bool> remove(std::string_view id, std::optional<Time> noted) override {
     static const std::string kSql =
-        "WITH gone AS (UPDATE sweeps SET removed = true WHERE id = $1 AND NOT removed RETURNING seq)" +
+        "WITH gone AS (UPDATE sweeps SET removed = true WHERE id = $1 AND NOT removed RETURNING seq, owner, "
+        "id), noted AS (INSERT INTO audit (owner, at_us, event, sweep, entry)"
+        "  SELECT owner, coalesce($2, snapthrough_now()), 'deleted', true, id FROM gone WHERE $3)" +
         std::string(kEndRemoved);
     return database_.write<bool>([&](Connection& connection) -> StatusOr<bool> {
       lock(connection, id);
-      return connection.run(kSql, Parameters().add(id))[0].integer(0) > 0;
+      Parameters gone = Parameters().add(id).add(clock_.at(noted.value_or(Time())));
+      return connection.run(kSql, gone.add(noted.has_value()))[0].integer(0) > 0;
     });
   }
 
@@ -309,7 +350,9 @@ class PostgresqlSweepStore final : public SweepStore {
     static const std::string kSql =
         "WITH old AS (SELECT seq FROM sweeps WHERE finished_us < coalesce($1, snapthrough_now()) - $2"
         "  AND NOT removed FOR UPDATE SKIP LOCKED),"
-        " gone AS (UPDATE sweeps SET removed = true WHERE seq IN (SELECT seq FROM old) RETURNING seq)" +
+        " gone AS (UPDATE sweeps SET removed = true WHERE seq IN (SELECT seq FROM old)"
+        "  RETURNING seq, owner, id), noted AS (INSERT INTO audit (owner, at_us, event, sweep, entry)"
+        "  SELECT owner, coalesce($1, snapthrough_now()), 'retired', true, id FROM gone)" +
         std::string(kEndRemoved);
     return database_.write_at_once<int>({{kSql, Parameters().add(clock_.at(now)).add(microseconds(age))}},
                                         Durability::synced, [](std::span<const Rows> all) -> StatusOr<int> {
@@ -391,7 +434,9 @@ class PostgresqlSweepStore final : public SweepStore {
         Durability::unsynced, use);
   }
 
-  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) override {
+  using SweepStore::put;
+  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, const WorkUsage& usage,
+                            Time now) override {
     static constexpr std::string_view kEnd =
         "DELETE FROM sweep_leases USING sweeps WHERE seq = sweep AND number = $1 AND NOT removed"
         " AND id = $3 AND first = $4 AND units = $5 AND until_us >= coalesce($2, snapthrough_now())"
@@ -412,6 +457,7 @@ class PostgresqlSweepStore final : public SweepStore {
       }
       const HeldUnits lease = read_held(ended[0]);
       settle(connection, lease, rows, held_and_ended.front()[0].boolean(0), clock_.at(now));
+      add_usage(connection, lease.sweep, rows.size(), usage, clock_.at(now));
       return read_record(connection.run(kRecord, Parameters().add(lease.sweep))[0]);
     };
     return database_.write<SweepRecord>(work, rows.empty() ? Durability::unsynced : Durability::synced);

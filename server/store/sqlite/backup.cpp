@@ -129,7 +129,8 @@ Status back_up(const std::string& path, const std::string& target) {
   if (!written.ok()) {
     return written.status();
   }
-  if (::ftruncate(written->get(), 0) != 0 || !remove_beside(unfinished)) {
+  if (::fchmod(written->get(), 0600) != 0 || ::ftruncate(written->get(), 0) != 0 ||
+      !remove_beside(unfinished)) {
     return {StatusCode::io_error, unfinished + ": " + std::generic_category().message(errno)};
   }
   Status status = copy_and_check(path, unfinished, target);

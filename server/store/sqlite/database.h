@@ -87,6 +87,9 @@ class Database {
     }
   }
 
+  /// See Writer::empty_log_next().
+  void empty_log_next() { writer_.empty_log_next(); }
+
   void write_metrics(std::string& text) const {
     writer_.commit_seconds().write(text);
     read_seconds_.write(text);

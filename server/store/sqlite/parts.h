@@ -30,6 +30,20 @@ namespace snapthrough::server::sqlite {
 /// the database outlives them.
 [[nodiscard]] std::unique_ptr<DeliveryStore> deliveries_in(Database& database);
 
+/// What owners used and did. REQUIRES: the database outlives it.
+[[nodiscard]] std::unique_ptr<LedgerStore> ledger_in(Database& database);
+
+/// Hours since 1970, the key of rows of usage.
+[[nodiscard]] inline std::int64_t hour_of(Time time) {
+  return std::chrono::floor<std::chrono::hours>(time.time_since_epoch()).count();
+}
+/// End of an INSERT into `usage`: adds to the row of the hour, if there is one.
+inline constexpr std::string_view kAddUsage =
+    "ON CONFLICT (owner, hour, label) DO UPDATE SET jobs = jobs + excluded.jobs,"
+    " points = points + excluded.points, cpu_us = cpu_us + excluded.cpu_us,"
+    " peak_bytes = max(peak_bytes, excluded.peak_bytes),"
+    " factorizations = factorizations + excluded.factorizations";
+
 /// @brief Applies the steps that the database lacks in one transaction, and records each in
 /// schema_migrations.
 /// @return see check_applied(). Throws Error when a step fails, or the database can't be read or written: it

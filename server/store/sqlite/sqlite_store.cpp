@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "api/provenance.h"
 #include "server/descriptor.h"
 #include "server/store/crashes.h"
 #include "server/store/sqlite/list.h"
@@ -65,6 +66,21 @@ void end_job(Connection& connection, std::int64_t job, JobEvent event, Time now)
                  to_row(now), job);
 }
 
+/// Ends a job that this program computed, and counts what that took.
+void end_computed_job(Connection& connection, std::int64_t job, JobEvent event, const WorkUsage& usage,
+                      Time now) {
+  connection.run(
+      "UPDATE jobs SET status = ?, finished_us = ?, program = ?, cpu_us = ?, peak_bytes = ?,"
+      " factorizations = ? WHERE seq = ?",
+      to_string(state_after(event)), to_row(now), api::program_text(), usage.cpu_us, usage.peak_bytes,
+      usage.factorizations, job);
+  static const std::string kAdd =
+      "INSERT INTO usage (owner, hour, label, jobs, cpu_us, peak_bytes, factorizations)"
+      " SELECT owner, ?, ifnull(label, ''), 1, ?, ?, ? FROM jobs WHERE seq = ? " +
+      std::string(kAddUsage);
+  connection.run(kAdd, hour_of(now), usage.cpu_us, usage.peak_bytes, usage.factorizations, job);
+}
+
 /// Puts a job back at its place in the queue.
 void put_back(Connection& connection, std::int64_t job) {
   static const std::string kSql =
@@ -103,14 +119,15 @@ std::int64_t insert_job(Connection& connection, const NewJob& job) {
   const std::optional<Lease>& lease = job.lease;
   connection.run(
       "INSERT INTO jobs (id, title, analysis_type, created_us, owner, content_key, status, attempt,"
-      " started_us, worker, lease_until_us, label, metadata, callback, crashes)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      " started_us, worker, lease_until_us, label, metadata, callback, crashes, request_sha256)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       job.id, job.title, job.analysis_type, to_row(job.created), job.owner, job.content_key,
       to_string(lease ? JobState::running : JobState::accepted), job.attempt + (lease ? 1 : 0),
       lease ? std::optional(to_row(job.created)) : std::nullopt,
       lease ? std::optional<std::string_view>(lease->worker) : std::nullopt,
       lease ? std::optional(to_row(lease->until)) : std::nullopt, text_or_null(job.annotations.label),
-      text_or_null(job.annotations.metadata), text_or_null(job.annotations.callback), job.crashes);
+      text_or_null(job.annotations.metadata), text_or_null(job.annotations.callback), job.crashes,
+      text_or_null(job.request_sha256));
   const std::int64_t row = connection.last_row();
   connection.run("INSERT INTO requests (job, document) VALUES (?, ?)", row, job.document);
   return row;
@@ -137,6 +154,8 @@ void copy_job(Connection& connection, NewJob job, std::int64_t original) {
         std::string_view(kPoints)}) {
     connection.run(sql, row, original);
   }
+  connection.run("UPDATE jobs SET program = (SELECT program FROM jobs WHERE seq = ?) WHERE seq = ?", original,
+                 row);
   end_job(connection, row, JobEvent::finish, job.created);
 }
 
@@ -224,7 +243,8 @@ class SqliteStore final : public Store {
       : lock_(std::move(lock)),
         database_(std::move(writer), path),
         sweeps_(sweeps_in(database_)),
-        deliveries_(deliveries_in(database_)) {}
+        deliveries_(deliveries_in(database_)),
+        ledger_(ledger_in(database_)) {}
 
   using Store::submit;
   StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override {
@@ -291,7 +311,8 @@ class SqliteStore final : public Store {
         Durability::unsynced);
   }
 
-  Status finish(const Claim& claim, const JobResult& result, Time now) override {
+  using Store::finish;
+  Status finish(const Claim& claim, const JobResult& result, const WorkUsage& usage, Time now) override {
     return database_.write_only([&](Connection& connection) {
       const std::optional<std::int64_t> job = leased_job(connection, claim, now);
       if (!job) {
@@ -307,12 +328,14 @@ class SqliteStore final : public Store {
           summary.termination, result.wall_time_s);
       insert_document_rest(connection, *job, result.document);
       insert_path(connection, *job, result.branches, result.critical_points);
-      end_job(connection, *job, JobEvent::finish, now);
+      end_computed_job(connection, *job, JobEvent::finish, usage, now);
       return Status();
     });
   }
 
-  Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) override {
+  using Store::fail;
+  Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached,
+              const WorkUsage& usage, Time now) override {
     return database_.write_only([&](Connection& connection) {
       const std::optional<std::int64_t> job = leased_job(connection, claim, now);
       if (!job) {
@@ -320,7 +343,7 @@ class SqliteStore final : public Store {
       }
       insert_failure(connection, *job, failure);
       insert_path(connection, *job, reached.branches, reached.critical_points);
-      end_job(connection, *job, JobEvent::fail, now);
+      end_computed_job(connection, *job, JobEvent::fail, usage, now);
       return Status();
     });
   }
@@ -363,15 +386,42 @@ class SqliteStore final : public Store {
     });
   }
 
-  StatusOr<bool> remove(std::string_view id) override {
+  using Store::remove;
+  StatusOr<bool> remove(std::string_view id, std::optional<Time> noted) override {
     return database_.write<bool>([&](Connection& connection) -> StatusOr<bool> {
+      if (noted) {
+        connection.run(
+            "INSERT INTO audit (owner, at_us, event, sweep, entry)"
+            " SELECT owner, ?, 'deleted', 0, id FROM jobs WHERE id = ?",
+            to_row(*noted), id);
+      }
       connection.run("DELETE FROM jobs WHERE id = ?", id);
       return connection.changes() > 0;
     });
   }
 
+  StatusOr<bool> set_key(std::string_view id, std::string_view sha256) override {
+    return database_.write<bool>([&](Connection& connection) -> StatusOr<bool> {
+      connection.run("UPDATE jobs SET key_sha256 = ? WHERE id = ?", sha256, id);
+      return connection.changes() > 0;
+    });
+  }
+
+  StatusOr<std::optional<std::string>> owner_by_key(std::string_view id, std::string_view sha256) override {
+    return database_.read<std::optional<std::string>>(
+        [&](const Connection& connection) -> std::optional<std::string> {
+          Statement row =
+              connection.query("SELECT owner FROM jobs WHERE id = ? AND key_sha256 = ?", id, sha256);
+          return row.step() ? std::optional(row.text(0)) : std::nullopt;
+        });
+  }
+
   StatusOr<int> retire(std::chrono::seconds age, int most, Time now) override {
     return database_.write<int>([&](Connection& connection) -> StatusOr<int> {
+      connection.run(
+          "INSERT INTO audit (owner, at_us, event, sweep, entry) SELECT owner, ?, 'retired', 0, id FROM jobs"
+          " WHERE finished_us < ? ORDER BY finished_us LIMIT ?",
+          to_row(now), to_row(now - age), most);
       connection.run(
           "DELETE FROM jobs WHERE seq IN (SELECT seq FROM jobs WHERE finished_us < ? ORDER BY finished_us"
           " LIMIT ?)",
@@ -398,21 +448,27 @@ class SqliteStore final : public Store {
   /// in the write-ahead log first.
   StatusOr<std::uint64_t> give_back_space() override {
     StatusOr<Pages> pages = database_.read<Pages>(pages_of);
+    bool shrunk = false;
     for (int i = 0; i < kShrinksAtOnce && pages.ok() && pages->free > pages->all / 4; ++i) {
       const std::int64_t before = pages->all;
-      const Status shrunk = database_.write_only(
+      const Status status = database_.write_only(
           [](Connection& connection) {
             connection.execute("PRAGMA incremental_vacuum(" + std::to_string(kPagesAtOnce) + ")");
             return Status();
           },
           Durability::unsynced);
-      if (!shrunk.ok()) {
+      if (!status.ok()) {
         break;
       }
       pages = database_.read<Pages>(pages_of);
       if (pages.ok() && pages->all == before) {
         break;  // made by a version whose stores do not shrink
       }
+      shrunk = true;
+    }
+    if (shrunk) {
+      database_.empty_log_next();
+      static_cast<void>(database_.write_only([](Connection&) { return Status(); }, Durability::unsynced));
     }
     return pages.ok() ? StatusOr<std::uint64_t>(static_cast<std::uint64_t>(pages->free * pages->size))
                       : pages.status();
@@ -510,6 +566,7 @@ class SqliteStore final : public Store {
   void write_metrics(std::string& text) const override { database_.write_metrics(text); }
   SweepStore& sweeps() override { return *sweeps_; }
   DeliveryStore& deliveries() override { return *deliveries_; }
+  LedgerStore& ledger() override { return *ledger_; }
 
  private:
   Descriptor lock_;         ///< lock of the file
@@ -517,6 +574,7 @@ class SqliteStore final : public Store {
   Database database_;
   std::unique_ptr<SweepStore> sweeps_;
   std::unique_ptr<DeliveryStore> deliveries_;
+  std::unique_ptr<LedgerStore> ledger_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "api/provenance.h"
 #include "server/store/crashes.h"
 #include "server/store/sqlite/list.h"
 #include "server/store/sqlite/parts.h"
@@ -13,17 +14,20 @@ namespace {
 
 /// Columns of read_record().
 const std::string& columns() {
-  static const std::string kColumns =
-      std::string(kSweepColumns) + ", sweeps.successful, sweeps.failed, sweeps.reused";
+  static const std::string kColumns = std::string(kSweepColumns) +
+                                      ", sweeps.successful, sweeps.failed, sweeps.reused, sweeps.program,"
+                                      " sweeps.cpu_us, sweeps.peak_bytes, sweeps.factorizations";
   return kColumns;
 }
-constexpr int kColumnCount = kSweepColumnCount + 3;
+constexpr int kColumnCount = kSweepColumnCount + 7;
 
 SweepRecord read_record(const Row& row) {
   SweepRecord sweep = read_sweep(row);
   sweep.successful = row.integer(kSweepColumnCount);
   sweep.failed = row.integer(kSweepColumnCount + 1);
   sweep.reused = row.integer(kSweepColumnCount + 2);
+  sweep.program = row.text(kSweepColumnCount + 3);
+  sweep.usage = read_work_usage(row, kSweepColumnCount + 4);
   return sweep;
 }
 
@@ -50,10 +54,10 @@ void insert_left(Connection& connection, std::int64_t sweep, const UnitRun& unit
 void insert_sweep(Connection& connection, const NewSweep& sweep) {
   connection.run(
       "INSERT INTO sweeps (id, owner, title, reuse, points, created_us, analysis_type, label, metadata,"
-      " callback, unit_points) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+      " callback, unit_points, request_sha256) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       sweep.id, sweep.owner, sweep.title, sweep.reuse ? 1 : 0, sweep.points, to_row(sweep.created),
       sweep.analysis_type, text_or_null(sweep.annotations.label), text_or_null(sweep.annotations.metadata),
-      text_or_null(sweep.annotations.callback), sweep.unit_points);
+      text_or_null(sweep.annotations.callback), sweep.unit_points, text_or_null(sweep.request_sha256));
   const std::int64_t row = connection.last_row();
   insert_left(connection, row, {0, static_cast<std::uint64_t>(sweep.points / sweep.unit_points)}, 0);
   connection.run("INSERT INTO sweep_documents (sweep, document) VALUES (?, ?)", row, sweep.document);
@@ -97,6 +101,33 @@ void insert_points(Connection& connection, std::int64_t sweep, const std::vector
       " bytes = bytes + ? WHERE seq = ?",
       counts.successful, counts.failed, counts.reused, counts.bytes, sweep);
   connection.run(kEnd, to_row(now), sweep);
+}
+
+/// Counts what this program took to compute rows of a sweep.
+void add_usage(Connection& connection, std::int64_t sweep, std::size_t rows, const WorkUsage& usage,
+               Time now) {
+  if (rows == 0) {
+    return;
+  }
+  connection.run(
+      "UPDATE sweeps SET program = ?, cpu_us = ifnull(cpu_us, 0) + ?,"
+      " peak_bytes = max(ifnull(peak_bytes, 0), ?), factorizations = ifnull(factorizations, 0) + ?"
+      " WHERE seq = ?",
+      api::program_text(), usage.cpu_us, usage.peak_bytes, usage.factorizations, sweep);
+  static const std::string kAdd =
+      "INSERT INTO usage (owner, hour, label, points, cpu_us, peak_bytes, factorizations)"
+      " SELECT owner, ?, ifnull(label, ''), ?, ?, ?, ? FROM sweeps WHERE seq = ? " +
+      std::string(kAddUsage);
+  connection.run(kAdd, hour_of(now), static_cast<std::int64_t>(rows), usage.cpu_us, usage.peak_bytes,
+                 usage.factorizations, sweep);
+}
+
+/// Notes an event of a sweep for its owner.
+void note_event(Connection& connection, std::string_view event, std::int64_t sweep, Time now) {
+  connection.run(
+      "INSERT INTO audit (owner, at_us, event, sweep, entry) SELECT owner, ?, ?, 1, id FROM sweeps"
+      " WHERE seq = ?",
+      to_row(now), event, sweep);
 }
 
 /// Removes at most `most` free units of a sweep from `sweep_left` and returns them.
@@ -288,7 +319,9 @@ class SqliteSweepStore final : public SweepStore {
         Durability::unsynced);
   }
 
-  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) override {
+  using SweepStore::put;
+  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, const WorkUsage& usage,
+                            Time now) override {
     return database_.write<SweepRecord>(
         [&](Connection& connection) -> StatusOr<SweepRecord> {
           const std::optional<StoredSweep> place = find(connection, claim.sweep);
@@ -297,6 +330,7 @@ class SqliteSweepStore final : public SweepStore {
             return Status(StatusCode::conflict, "sweep " + claim.sweep + " does not run any more");
           }
           insert_points(connection, place->row, rows, now);
+          add_usage(connection, place->row, rows.size(), usage, now);
           for (const UnitRun& run :
                stored_rows(connection, held->sweep, held->units, held->unit_points).left()) {
             insert_left(connection, held->sweep, run, held->crashes);
@@ -363,13 +397,18 @@ class SqliteSweepStore final : public SweepStore {
         return status;
       }
       connection.run(kAgain, place->row);
+      note_event(connection, to_string(AuditEvent::retried), place->row, now);
       forget_failures(connection, place->row);
       return SweepChange{place->state, true};
     });
   }
 
-  StatusOr<bool> remove(std::string_view id) override {
+  using SweepStore::remove;
+  StatusOr<bool> remove(std::string_view id, std::optional<Time> noted) override {
     return database_.write<bool>([&](Connection& connection) -> StatusOr<bool> {
+      if (const std::optional<StoredSweep> place = find(connection, id); place && noted) {
+        note_event(connection, to_string(AuditEvent::deleted), place->row, *noted);
+      }
       connection.run("UPDATE sweeps SET removed = 1 WHERE id = ? AND removed = 0", id);
       return connection.changes() > 0;
     });
@@ -377,6 +416,10 @@ class SqliteSweepStore final : public SweepStore {
 
   StatusOr<int> retire(std::chrono::seconds age, Time now) override {
     return database_.write<int>([&](Connection& connection) -> StatusOr<int> {
+      connection.run(
+          "INSERT INTO audit (owner, at_us, event, sweep, entry) SELECT owner, ?, 'retired', 1, id"
+          " FROM sweeps WHERE finished_us < ? AND removed = 0",
+          to_row(now), to_row(now - age));
       connection.run("UPDATE sweeps SET removed = 1 WHERE finished_us < ? AND removed = 0",
                      to_row(now - age));
       return static_cast<int>(connection.changes());

@@ -23,8 +23,8 @@ void roll_back(Connection& connection) {
   }
 }
 
-/// Moves what the write-ahead log holds into the file, so that the log is written from its begin again: on a
-/// full disk it cannot grow, not even for a deletion.
+/// Moves what the write-ahead log holds into the file, which gets its length of this moment, and the log is
+/// written from its begin again: on a full disk it cannot grow, not even for a deletion.
 void empty_log(Connection& connection) {
   try {
     connection.execute("PRAGMA wal_checkpoint(PASSIVE)");
@@ -115,6 +115,9 @@ void Writer::commit_batch(std::deque<Item*>& batch) {
     }
     const bool undo = batch.size() == 1 && !batch.front()->status.ok();
     connection_->execute(undo ? "ROLLBACK" : "COMMIT");
+    if (empties_log_.exchange(false)) {
+      empty_log(*connection_);
+    }
   } catch (const Error& error) {
     roll_back(*connection_);
     if ((error.code() & 0xff) == SQLITE_FULL) {

@@ -2,6 +2,7 @@
 /// @file
 /// Thread that writes to the database, with many callers to a commit.
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -41,6 +42,9 @@ class Writer {
   /// @param patient the commit may wait a millisecond for work that is not patient
   Status run(const Work& work, Durability durability, const std::function<void()>& queued = {},
              bool patient = false);
+  /// Lets the next commit be followed by one attempt to move the write-ahead log into the file: until then
+  /// the file keeps its length, and the disk lacks the room that was given back.
+  void empty_log_next() { empties_log_ = true; }
   [[nodiscard]] const Histogram& commit_seconds() const { return commit_seconds_; }
 
  private:
@@ -64,6 +68,7 @@ class Writer {
   std::condition_variable changed_;
   std::deque<Item*> waiting_;
   bool stopping_ = false;
+  std::atomic<bool> empties_log_ = false;
   std::thread thread_;
 };
 

@@ -376,7 +376,7 @@ class ComponentsOfAFolder(unittest.TestCase):
         for thread in threads:
             thread.start()
         for thread in threads:
-            thread.join(60)
+            thread.join(240)
         self.assertEqual(len(done), 60)
 
     def test_a_file_that_is_wrong_says_so_at_the_component(self):
@@ -404,7 +404,7 @@ class ComponentsOfAFolder(unittest.TestCase):
 
     def test_a_folder_that_is_not_there_is_told_at_the_start(self):
         done = subprocess.run([EXECUTABLE, "serve", "--listen", "127.0.0.1:0", "--store", f"{self.folder.name}/s.db",
-                               "--hops-folder", "/nowhere"], capture_output=True, text=True, timeout=20, check=False)
+                               "--hops-folder", "/nowhere"], capture_output=True, text=True, timeout=120, check=False)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("hops_folder", done.stderr)
 

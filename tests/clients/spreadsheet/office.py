@@ -16,7 +16,7 @@ from com.sun.star.beans import PropertyValue
 from com.sun.star.connection import NoConnectException
 
 FULL_UPDATE = 3  # com.sun.star.document.UpdateDocMode: links are loaded
-SECONDS = 60
+SECONDS = 240
 
 
 def option(name, value):

@@ -1,5 +1,6 @@
 """A service for a test: the executable on a free port, with a store in a temporary folder."""
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -19,7 +20,8 @@ class Service:
         store = pathlib.Path(self.folder.name) / "store.db"
         self.process = subprocess.Popen(
             [self.executable, "serve", "--listen", "127.0.0.1:0", "--store", str(store), *self.options],
-            stderr=subprocess.PIPE, text=True)
+            stderr=subprocess.PIPE, text=True,
+            env={**os.environ, "SNAPTHROUGH_DEFAULT_WAIT_S": "60"})  # answers do not depend on how fast they come
         for line in self.process.stderr:
             self.log.append(line)
             if '"event":"listening"' in line:
@@ -34,7 +36,7 @@ class Service:
 
     def __exit__(self, *_):
         self.process.terminate()
-        self.process.wait(timeout=30)
-        self.reader.join(timeout=5)
+        self.process.wait(timeout=100)
+        self.reader.join(timeout=100)
         self.process.stderr.close()
         self.folder.cleanup()

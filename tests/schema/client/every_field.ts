@@ -154,16 +154,13 @@ const sweep: Schemas['SweepDocument'] = {
 
 type Created = paths['/v1/jobs']['post'];
 
-/** What POST /v1/jobs may answer, by status. */
+/** What POST /v1/jobs may answer: a result or the status of a job, which `kind` tells, or a problem. */
 export async function solve(service: string, request: Created['requestBody']['content']['application/json']): Promise<string> {
   const response = await fetch(`${service}/v1/jobs`, {method: 'POST', body: JSON.stringify(request)});
-  if (response.status === 200) {
-    const result = await response.json() as Schemas['Result']; // a job only comes where one is preferred
-    return result.summary.message;
-  }
-  if (response.status === 201) {
-    const job = await response.json() as Created['responses'][201]['content']['application/json'];
-    return `${job.id} ${job.status} ${job.error?.code ?? ''}`;
+  if (response.ok) {
+    const answer = await response.json() as Created['responses'][200 | 201 | 202]['content']['application/json'];
+    if (answer.kind === 'result') return `${answer.summary.message} ${answer.program.version} ${answer.request_sha256}`;
+    return `${answer.id} ${answer.status} ${answer.error?.code ?? ''} ${answer.usage?.cpu_seconds ?? ''}`;
   }
   const problem = await response.json() as Schemas['Problem'];
   const findings = (problem.errors ?? []).map(({pointer, code, detail}) => `${pointer} ${code} ${detail}`);

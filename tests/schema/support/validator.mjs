@@ -11,7 +11,8 @@ const ajv = new Ajv2020({
   allErrors: true,
   formats: {'date-time': /^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z$/},
 });
-for (const keyword of ['x-unit', 'x-ids', 'x-analysis', 'x-column']) ajv.addKeyword({keyword});
+// discriminator: which of oneOf it is; oneOf says the same, and that of ajv takes no mapping
+for (const keyword of ['x-unit', 'x-ids', 'x-analysis', 'x-column', 'x-default', 'discriminator']) ajv.addKeyword({keyword});
 ajv.addKeyword({keyword: 'components'});
 ajv.addSchema({$id: 'snapthrough', components: document.components});
 

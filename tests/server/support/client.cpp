@@ -8,11 +8,14 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <sstream>
 #include <system_error>
 #include <thread>
+
+#include "tests/server/support/eventually.h"
 
 namespace snapthrough::server::test {
 
@@ -26,7 +29,7 @@ std::string Reply::header(const std::string& name) const {
 }
 
 Socket::Socket(int port) : descriptor_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-  const timeval timeout{30, 0};  // a test that hangs shall fail instead
+  const timeval timeout{kPatience.count(), 0};  // a test that hangs shall fail instead
   ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -52,6 +55,8 @@ void Socket::send(const std::string& bytes) const {
   }
 }
 
+void Socket::end_sending() const { ::shutdown(descriptor_, SHUT_WR); }
+
 bool Socket::readable() const {
   pollfd state{descriptor_, POLLIN, 0};
   return !buffer_.empty() || ::poll(&state, 1, 0) > 0;
@@ -61,6 +66,7 @@ bool Socket::fill() {
   std::array<char, 65536> chunk{};
   const ssize_t count = ::recv(descriptor_, chunk.data(), chunk.size(), 0);
   if (count <= 0) {
+    error_ = count < 0 ? errno : 0;
     return false;
   }
   buffer_.append(chunk.data(), static_cast<std::size_t>(count));
@@ -135,20 +141,31 @@ std::string Socket::rest() {
   return std::move(buffer_);
 }
 
-std::string Socket::read_slowly(std::size_t piece, std::chrono::milliseconds pause) {
+std::string Socket::read_slowly(std::size_t piece, std::chrono::milliseconds pause,
+                                std::chrono::milliseconds& longest) {
   const int room = static_cast<int>(piece);
   ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
   std::string text = std::move(buffer_);
   std::string chunk(piece, '\0');
   ssize_t count = 0;
+  longest = std::chrono::milliseconds(0);
   while ((count = ::recv(descriptor_, chunk.data(), chunk.size(), 0)) > 0) {
+    const auto begin = std::chrono::steady_clock::now();
     text.append(chunk, 0, static_cast<std::size_t>(count));
     std::this_thread::sleep_for(pause);
+    const auto time = std::chrono::steady_clock::now() - begin;
+    longest = std::max(longest, std::chrono::duration_cast<std::chrono::milliseconds>(time));
   }
   return text;
 }
 
 bool Socket::at_end() { return buffer_.empty() && !fill(); }
+
+bool Socket::was_reset() {
+  while (fill()) {
+  }
+  return error_ == ECONNRESET;
+}
 
 Reply call(int port, const std::string& method, const std::string& target, const std::string& body,
            const Headers& headers) {

@@ -30,23 +30,31 @@ class Socket {
   Socket& operator=(Socket&&) = delete;
 
   void send(const std::string& bytes) const;
+  /// Ends the sending side; responses can still be received.
+  void end_sending() const;
   /// The next response; status 0 when the connection ends first. Interim responses (1xx) are returned too.
   Reply receive(bool without_body = false);
   /// Everything up to and with the mark; less when the other side closes first.
   std::string read_until(const std::string& mark);
   /// Everything until the other side closes.
   std::string rest();
-  /// The same, in pieces with a pause after each; the kernel keeps little meanwhile.
-  std::string read_slowly(std::size_t piece, std::chrono::milliseconds pause);
+  /// The same, in pieces with a pause after each; the kernel keeps little meanwhile. Sets `longest` to the
+  /// longest of these pauses, which a busy machine may extend.
+  std::string read_slowly(std::size_t piece, std::chrono::milliseconds pause,
+                          std::chrono::milliseconds& longest);
   /// Whether something has arrived, or the other side has closed.
   [[nodiscard]] bool readable() const;
   /// Whether the other side has closed and nothing is left to read.
   [[nodiscard]] bool at_end();
+  /// Reads until the other side ends the connection. Returns whether it did so by a reset, which may destroy
+  /// what it had sent before.
+  [[nodiscard]] bool was_reset();
 
  private:
   bool fill();
   void receive_chunks(Reply& reply);
   int descriptor_;
+  int error_ = 0;  ///< errno of the latest read; 0: it did not fail
   std::string buffer_;
 };
 

@@ -10,7 +10,9 @@ class FailingDeliveryStore final : public DeliveryStore {
  public:
   explicit FailingDeliveryStore(StatusCode code) : code_(code) {}
 
-  StatusOr<std::optional<Delivery>> next(std::string_view, std::chrono::milliseconds, Time) override {
+  using DeliveryStore::next;
+  StatusOr<std::optional<Delivery>> next(std::string_view, const UnderWay&, std::chrono::milliseconds,
+                                         Time) override {
     return status();
   }
   Status postpone(std::int64_t, std::chrono::milliseconds, Time) override { return status(); }

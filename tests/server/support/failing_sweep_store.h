@@ -28,14 +28,14 @@ class FailingSweepStore final : public SweepStore {
   StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>&, Time, Time) override {
     return status();
   }
-  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, Time) override {
+  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, const WorkUsage&, Time) override {
     return status();
   }
   StatusOr<std::int64_t> recover(int, Time) override { return status(); }
   StatusOr<std::int64_t> rescue(std::string_view, int, Time) override { return status(); }
   StatusOr<SweepChange> dismiss(std::string_view, Time) override { return status(); }
   StatusOr<SweepChange> retry(std::string_view, const Quotas&, Time) override { return status(); }
-  StatusOr<bool> remove(std::string_view) override { return status(); }
+  StatusOr<bool> remove(std::string_view, std::optional<Time>) override { return status(); }
   StatusOr<int> retire(std::chrono::seconds, Time) override { return status(); }
   StatusOr<bool> purge(int) override { return status(); }
   Status forget_keys(std::chrono::seconds, Time) override { return status(); }

@@ -192,9 +192,9 @@ class Schemas {
 
   [[nodiscard]] bool holds(const json& schema, const std::string& keyword, const json& rule,
                            const json& value) const {
-    static const std::set<std::string> kNotes{"description",   "format",     "default",
-                                              "x-unit",        "x-ids",      "contentMediaType",
-                                              "contentSchema", "x-analysis", "x-column"};
+    static const std::set<std::string> kNotes{
+        "title", "description", "format",           "default",       "x-default", "x-unit",
+        "x-ids", "x-analysis",  "contentMediaType", "contentSchema", "x-column",  "discriminator"};
     static const std::set<std::string> kOfNumbers{"minimum", "maximum", "exclusiveMinimum",
                                                   "exclusiveMaximum"};
     static const std::set<std::string> kOfStrings{"minLength", "maxLength", "pattern"};

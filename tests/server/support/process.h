@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/server/support/eventually.h"
 #include "tests/server/support/temp_dir.h"
 
 namespace snapthrough::server::test {
@@ -82,6 +83,25 @@ class Process {
     return all;
   }
   void signal(int number) const { ::kill(id_, number); }
+  /// Whether the process has ended. Leaves its status to wait().
+  [[nodiscard]] bool has_ended() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == id_;
+  }
+  /// Processor time that the process has used, in seconds; 0 when it has ended and was waited for.
+  [[nodiscard]] double processor_seconds() const {
+    const std::string stat = read_file("/proc/" + std::to_string(id_) + "/stat");
+    std::istringstream fields(stat.substr(stat.rfind(')') + 1));
+    std::string skipped;
+    for (int i = 3; i < 14; ++i) {  // utime and stime are the fields 14 and 15
+      fields >> skipped;
+    }
+    double user = 0.0;
+    double system = 0.0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  }
   /// Exit status; 1000 plus the signal when one ended it.
   int wait() {
     int status = 0;
@@ -103,17 +123,20 @@ class Process {
 
 /// Waits until a service that was started says in its log which port it has; 0 when it does not.
 inline int listening_port(const Process& service) {
-  for (int i = 0; i < 2000; ++i) {
+  int port = 0;
+  const auto has_ended_or_listens = [&] {
+    const bool ended = service.has_ended();  // before the log is read, which is whole then
     std::istringstream lines(service.err());
     for (std::string line; std::getline(lines, line);) {
       const nlohmann::json entry = nlohmann::json::parse(line, nullptr, false);
       if (entry.is_object() && entry.value("event", "") == "listening") {
-        return entry["port"].get<int>();
+        port = entry["port"].get<int>();
       }
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return 0;
+    return ended || port != 0;
+  };
+  (void)eventually(has_ended_or_listens);
+  return port;
 }
 
 }  // namespace snapthrough::server::test

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include "tests/server/support/eventually.h"
+
 namespace snapthrough::server::test {
 namespace {
 
@@ -66,7 +68,7 @@ Receiver::Receiver(Answer answer)
         continue;
       }
       if (const int socket = http::accept_from(listener_.get(), remote); socket >= 0) {
-        connections_.emplace_back([this, socket] { serve(socket); });
+        connections_.emplace_back([this, socket](const std::stop_token& end) { serve(socket, end); });
       }
     }
   });
@@ -82,8 +84,8 @@ Receiver::~Receiver() {
   }
 }
 
-/// Ends when the other side does.
-void Receiver::serve(int accepted) {
+/// Ends when the other side does, or the receiver while it holds a connection.
+void Receiver::serve(int accepted, const std::stop_token& end) {
   const Descriptor socket(accepted);
   ::fcntl(accepted, F_SETFL, 0);  // it may wait
   const Told told = read_request(accepted);
@@ -104,15 +106,15 @@ void Receiver::serve(int accepted) {
     answer.pop_back();
   }
   send_all(accepted, answer);
-  while (hold && !readable(accepted, 10'000)) {
+  while (hold && !end.stop_requested() && !readable(accepted, 10)) {
   }
-  while (drip && !readable(accepted, 10) && send_all(accepted, "x")) {
+  while (drip && !end.stop_requested() && !readable(accepted, 10) && send_all(accepted, "x")) {
   }
 }
 
 std::vector<Told> Receiver::wait_for(std::size_t count) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, std::chrono::seconds(20), [&] { return told_.size() >= count; });
+  changed_.wait_for(lock, kPatience, [&] { return told_.size() >= count; });
   return told_;
 }
 

@@ -37,7 +37,7 @@ class Receiver {
   Receiver(Receiver&&) = delete;
   Receiver& operator=(Receiver&&) = delete;
 
-  /// What came, once it is so many; less after 20 s.
+  /// What came, once it is so many; less after kPatience.
   std::vector<Told> wait_for(std::size_t count);
   [[nodiscard]] std::vector<Told> told();
   /// "127.0.0.1:port"
@@ -46,7 +46,7 @@ class Receiver {
   [[nodiscard]] std::string address() const { return "http://" + host() + "/ended?x=1"; }
 
  private:
-  void serve(int socket);
+  void serve(int socket, const std::stop_token& end);
 
   Answer answer_;
   Descriptor listener_;

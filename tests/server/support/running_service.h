@@ -15,6 +15,7 @@
 #include "server/service.h"
 #include "server/worker/local_runner.h"
 #include "tests/server/support/client.h"
+#include "tests/server/support/eventually.h"
 #include "tests/server/support/postgresql.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/temp_dir.h"
@@ -57,7 +58,8 @@ class GatedSolver {
   /// Waits until that many analyses have begun.
   void wait_started(int count) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, std::chrono::seconds(20), [&] { return started_ >= count; });
+    EXPECT_TRUE(changed_.wait_for(lock, kPatience, [&] { return started_ >= count; }))
+        << started_ << " of " << count << " analyses have begun";
   }
 
  private:
@@ -111,6 +113,7 @@ class ServiceTest : public testing::Test {
     config.listener.port = 0;
     config.listener.threads = 16;
     config.listener.limits.body_bytes = 100'000;
+    config.waits.default_wait = config.waits.longest_wait;  // answers do not depend on how fast they come
     config.store_path = std::getenv("TEST_SHARED_STORES") == nullptr ? folder_.file("store.db")
                                                                      : postgresql_location(folder_.name());
     config.workers = workers_;

@@ -31,6 +31,17 @@ inline std::string column_request(const std::string& title = "column") {
   "stop": {"steps": 20}}})";
 }
 
+/// A path that goes on for minutes on any machine.
+inline std::string endless_request(const std::string& title = "endless") {
+  nlohmann::json request = nlohmann::json::parse(column_request(title));
+  request["analysis"] = {{"type", "path"},
+                         {"discretization", {{"elements", 2000}, {"order", 5}}},
+                         {"step", {{"initial", 1e-6}, {"max", 1e-6}}},
+                         {"stop", {{"steps", 100'000}}},
+                         {"output", {{"states", "none"}}}};
+  return request.dump();
+}
+
 /// A sweep of that column over as many stiffnesses, 1, 2, 3, ...
 inline std::string column_sweep(int points, const std::string& title = "column") {
   const std::string request = column_request(title);

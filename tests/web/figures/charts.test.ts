@@ -163,8 +163,12 @@ test("a line for each value of the second parameter, in the order of the first",
   assert.equal(found.row, spot.row);
 });
 
+/// Members of a table that no program has computed.
+const unmade = { kind: "table", program: null, request_sha256: null } as const;
+
 test("names instead of numbers have their places on an axis", () => {
   const table: Table = {
+    ...unmade,
     columns: ["feet", "/summary/critical_load_factor", "error"], points: [0, 1, 2], links: { request: "", job: "" },
     rows: [["pinned", 3, null], ["clamped", 5, null], ["free", null, { code: "mechanism", detail: "it moves" }]],
   };
@@ -229,7 +233,7 @@ test("contour lines are where the level is, also around a saddle", () => {
 
 test("points that are no grid are dots", () => {
   const rows = Array.from({ length: 30 }, (_, i) => [Math.sin(i) * 5, Math.cos(i * 1.7) * 3, i, null]);
-  const table: Table = { columns: ["a", "b", "c", "error"], rows, points: rows.map((_, i) => i), links: { request: "", job: "" } };
+  const table: Table = { ...unmade, columns: ["a", "b", "c", "error"], rows, points: rows.map((_, i) => i), links: { request: "", job: "" } };
   const input = { table, x: { column: "a" }, y: { column: "b" }, value: { column: "c" } };
   const chart = sweepMapChart(input, size);
   assert.equal(withClass(sweepMap(input, size, chart), "dot").length, 30);

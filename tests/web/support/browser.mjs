@@ -19,7 +19,7 @@ export async function startBrowser() {
 export async function openPage(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(15_000);
+  page.setDefaultTimeout(100_000);
   page.troubles = [];
   page.on('pageerror', (error) => page.troubles.push(error.message));
   page.on('console', (message) => {
@@ -29,6 +29,17 @@ export async function openPage(browser, url, options = {}) {
   });
   await page.goto(url);
   return page;
+}
+
+/** Waits until a condition, which may be asynchronous, holds; fails after the time that a busy machine may need. */
+export async function eventually(condition, told) {
+  const end = Date.now() + 100_000;
+  while (!await condition()) {
+    if (Date.now() > end) {
+      throw new Error(`does not become so: ${told}`);
+    }
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
 }
 
 /** Waits until the studio has an answer and nothing is asked for. */
