@@ -17,7 +17,8 @@ class Drawer:
         at = self.schemas.resolved(schema)
         for _ in range(20):
             found = self.candidate(at, depth)
-            if ("not" not in at and "contains" not in at and "pattern" not in at) or self.schemas.is_valid(at, found):
+            plain = at is True or not {"not", "contains", "pattern"} & at.keys()
+            if plain or self.schemas.is_valid(at, found):
                 break
         return found
 
