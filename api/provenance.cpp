@@ -129,6 +129,10 @@ std::string provenance_members(std::string_view kind, std::string_view program,
   return request_sha256.empty() ? text.append("null") : text.append("\"").append(request_sha256).append("\"");
 }
 
+std::string provenance_members(std::string_view kind, const json& document) {
+  return provenance_members(kind, program_text(), request_digest(document));
+}
+
 std::string canonical_text(const json& document) {
   std::string text;
   append(document, text);

@@ -33,6 +33,9 @@ struct Program {
 [[nodiscard]] std::string provenance_members(std::string_view kind, std::string_view program,
                                              std::string_view request_sha256);
 
+/// Returns these members for what this program computes of a request or sweep document.
+[[nodiscard]] std::string provenance_members(std::string_view kind, const nlohmann::json& document);
+
 /// @brief Returns a document in the JSON Canonicalization Scheme (RFC 8785): members sorted, no white space,
 /// numbers as ECMAScript writes them. Documents that differ in spelling alone have the same text. Names sort
 /// by UTF-8 bytes, which differs from the scheme only between characters above U+FFFF and U+E000 to U+FFFF.

@@ -241,7 +241,7 @@ Answer swept(const api::Sweep& sweep, const nlohmann::json& asked, Points points
   points.count = std::min(points.count, sweep.size() - points.first);
   api::TableWriter table(
       sweep, api::TableForm::json, std::nullopt,
-      api::provenance_members("table", api::program_text(), api::request_digest(asked)));
+      api::provenance_members("table", asked));
   Answer answer{SNAPTHROUGH_DONE, "{\"total\": " + std::to_string(sweep.size()) +
                                       ", \"unit\": " + std::to_string(sweep.unit_size()) + ", " +
                                       table.head().substr(1)};

@@ -109,9 +109,7 @@ int merge_command(const std::vector<std::string>& paths, api::TableForm form, co
   if (!all_there(parts, streams)) {
     return kOther;
   }
-  api::TableWriter writer(
-      sweep, form, std::nullopt,
-      api::provenance_members("table", api::program_text(), api::request_digest(first.document())));
+  api::TableWriter writer(sweep, form, std::nullopt, api::provenance_members("table", first.document()));
   streams.out << writer.head();
   std::uint64_t failed = 0;
   for (const PartRows& part : parts) {

@@ -59,9 +59,7 @@ class RowSink {
 class TableSink final : public RowSink {
  public:
   TableSink(const api::Sweep& sweep, const nlohmann::json& document, api::TableForm form, std::ostream& out)
-      : out_(out),
-        writer_(sweep, form, std::nullopt,
-                api::provenance_members("table", api::program_text(), api::request_digest(document))) {
+      : out_(out), writer_(sweep, form, std::nullopt, api::provenance_members("table", document)) {
     out_ << writer_.head();
   }
 
