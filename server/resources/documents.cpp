@@ -140,6 +140,10 @@ ordered_json sweep_status(const SweepRecord& sweep) {
 
 }  // namespace
 
+ordered_json page_links(std::string_view next) {
+  return next.empty() ? ordered_json::array() : ordered_json::array({link("next", std::string(next))});
+}
+
 std::string sweep_path(std::string_view id) { return "/v1/sweeps/" + std::string(id); }
 
 ordered_json sweep_counts(const SweepRecord& sweep) {
@@ -156,11 +160,7 @@ std::string sweep_list_document(const SweepPage& page, std::string_view next) {
   for (const SweepRecord& sweep : page.sweeps) {
     sweeps.push_back(sweep_status(sweep));
   }
-  ordered_json links = ordered_json::array();
-  if (!next.empty()) {
-    links.push_back(link("next", std::string(next)));
-  }
-  return to_text({{"sweeps", std::move(sweeps)}, {"links", std::move(links)}});
+  return to_text({{"sweeps", std::move(sweeps)}, {"links", page_links(next)}});
 }
 
 std::string job_path(std::string_view id) { return "/v1/jobs/" + std::string(id); }
@@ -174,11 +174,7 @@ std::string job_list_document(const JobPage& page, std::string_view next) {
   for (const Job& job : page.jobs) {
     jobs.push_back(job_status(job, std::nullopt));
   }
-  ordered_json links = ordered_json::array();
-  if (!next.empty()) {
-    links.push_back(link("next", std::string(next)));
-  }
-  return to_text({{"jobs", std::move(jobs)}, {"links", std::move(links)}});
+  return to_text({{"jobs", std::move(jobs)}, {"links", page_links(next)}});
 }
 
 namespace {

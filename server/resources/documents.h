@@ -46,6 +46,9 @@ struct Problem {
 /// Returns a page of sweeps; `next` is the path of the next page, "" on the last one.
 [[nodiscard]] std::string sweep_list_document(const SweepPage& page, std::string_view next);
 
+/// Returns the links of a page of a list: that to the next page, unless `next` is "".
+[[nodiscard]] nlohmann::ordered_json page_links(std::string_view next);
+
 /// Returns application/problem+json; for a request of the Hops protocol a document of that protocol, which
 /// can only hold sentences.
 [[nodiscard]] Response problem_response(const Problem& problem, const Request& request);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -55,14 +54,7 @@ std::optional<ListPlace> place_of(std::string_view cursor) {
                         : std::nullopt;
 }
 
-/// A query parameter of a list.
-struct ListParameter {
-  std::string_view name;
-  /// Returns false for an invalid value.
-  bool (*read)(const std::string& value, ListQuery& query);
-};
-
-constexpr ListParameter kListParameters[] = {
+constexpr QueryParameter<ListQuery> kListParameters[] = {
     {"limit",
      [](const std::string& value, ListQuery& query) {
        query.limit = whole_number<int>(value).value_or(0);
@@ -90,28 +82,17 @@ constexpr ListParameter kListParameters[] = {
      }},
 };
 
-/// Returns false for a parameter that is unknown, repeated or invalid.
-bool read_list_parameter(const std::string& name, const std::string& value, std::set<std::string>& seen,
-                         ListQuery& query) {
-  const auto* parameter = std::find_if(std::begin(kListParameters), std::end(kListParameters),
-                                       [&](const ListParameter& one) { return one.name == name; });
-  return parameter != std::end(kListParameters) && seen.insert(name).second && parameter->read(value, query);
-}
-
 }  // namespace
 
 std::optional<Response> read_list_query(const Request& request, ListQuery& query) {
-  std::set<std::string> seen;
-  for (const auto& [name, value] : request.query) {
-    if (!read_list_parameter(name, value, seen, query)) {
-      return wrong_parameter(
-          request,
-          "limit (1 to " + std::to_string(kLargestPage) + "), cursor (from a next link), status, analysis (" +
-              api::names_in(api::kAnalysisTypes) + "), label (1 to " + std::to_string(kLongestLabel) +
-              " characters), created_after and created_before (RFC 3339, e.g. "
-              "2026-01-31T08:30:00Z), each once",
-          name, value);
-    }
+  if (const auto wrong = read_query(request, kListParameters, query)) {
+    return wrong_parameter(
+        request,
+        "limit (1 to " + std::to_string(kLargestPage) + "), cursor (from a next link), status, analysis (" +
+            api::names_in(api::kAnalysisTypes) + "), label (1 to " + std::to_string(kLongestLabel) +
+            " characters), created_after and created_before (RFC 3339, e.g. "
+            "2026-01-31T08:30:00Z), each once",
+        wrong->first, wrong->second);
   }
   return std::nullopt;
 }

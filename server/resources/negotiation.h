@@ -2,14 +2,18 @@
 /// @file
 /// Headers, query parameters and refusals that requests about jobs and sweeps share.
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "api/sweep_table.h"
 #include "server/jobs/submission.h"
@@ -23,6 +27,32 @@ template <class Number>
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+/// A query parameter that sets a part of `Query`.
+template <class Query>
+struct QueryParameter {
+  std::string_view name;
+  bool (*read)(const std::string& value, Query& query);  ///< returns false for an invalid value
+  bool repeats = false;                                  ///< may be given more than once
+};
+
+/// @brief Reads the query parameters of a request into `query`.
+/// @return name and value of the first one that is unknown, repeated or invalid; nullopt when all are valid
+template <class Query, std::size_t n>
+[[nodiscard]] std::optional<std::pair<std::string, std::string>> read_query(
+    const Request& request, const QueryParameter<Query> (&parameters)[n], Query& query) {
+  std::set<std::string_view> seen;
+  for (const auto& given : request.query) {
+    const auto* const known =
+        std::find_if(std::begin(parameters), std::end(parameters),
+                     [&given](const QueryParameter<Query>& one) { return one.name == given.first; });
+    if (known == std::end(parameters) || (!seen.insert(given.first).second && !known->repeats) ||
+        !known->read(given.second, query)) {
+      return given;
+    }
+  }
+  return std::nullopt;
 }
 
 /// Largest number of entries on a page of a list.

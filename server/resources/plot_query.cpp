@@ -1,10 +1,6 @@
 #include "server/resources/plot_query.h"
 
-#include <algorithm>
-#include <iterator>
-#include <set>
 #include <string>
-#include <string_view>
 
 #include "api/names.h"
 #include "server/resources/negotiation.h"
@@ -35,16 +31,7 @@ bool read_text(const std::string& value, std::optional<std::string>& text) {
   return !value.empty();
 }
 
-/// A query parameter of a figure.
-struct PlotParameter {
-  std::string_view name;
-  /// Returns false for an invalid value.
-  bool (*read)(const std::string& value, PlotRequest& figure);
-};
-
-constexpr std::string_view kCondition = "where";
-
-constexpr PlotParameter kPlotParameters[] = {
+constexpr QueryParameter<PlotRequest> kPlotParameters[] = {
     {"kind",
      [](const std::string& value, PlotRequest& figure) {
        return (figure.kind = api::value_of(api::kPlotKinds, value)).has_value();
@@ -65,35 +52,24 @@ constexpr PlotParameter kPlotParameters[] = {
     {"output", [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.output); }},
     {"x", [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.x); }},
     {"by", [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.by); }},
-    {kCondition,
-     [](const std::string& value, PlotRequest& figure) { return api::add_condition(value, figure); }},
+    {"where", [](const std::string& value, PlotRequest& figure) { return api::add_condition(value, figure); },
+     true},
     {"width", [](const std::string& value, PlotRequest& figure) { return read_size(value, figure.width); }},
     {"height", [](const std::string& value, PlotRequest& figure) { return read_size(value, figure.height); }},
     {"dark", [](const std::string& value, PlotRequest& figure) { return read_flag(value, figure.dark); }},
 };
 
-bool read_parameter(const std::string& name, const std::string& value, std::set<std::string>& seen,
-                    PlotRequest& figure) {
-  const auto* parameter = std::find_if(std::begin(kPlotParameters), std::end(kPlotParameters),
-                                       [&](const PlotParameter& one) { return one.name == name; });
-  return parameter != std::end(kPlotParameters) && (seen.insert(name).second || name == kCondition) &&
-         parameter->read(value, figure);
-}
-
 }  // namespace
 
 std::optional<Response> read_plot_query(const Request& request, PlotRequest& figure) {
-  std::set<std::string> seen;
-  for (const auto& [name, value] : request.query) {
-    if (!read_parameter(name, value, seen, figure)) {
-      return wrong_parameter(request,
-                             "kind (" + api::names_in(api::kPlotKinds) +
-                                 "), state, mode and branch (numbers from 0), monitor, output, x, by, "
-                                 "arc-length and dark (true or "
-                                 "false), magnify (above 0), width and height (200 to 8000), each once, and "
-                                 "where (NAME=VALUE, each NAME once)",
-                             name, value);
-    }
+  if (const auto wrong = read_query(request, kPlotParameters, figure)) {
+    return wrong_parameter(request,
+                           "kind (" + api::names_in(api::kPlotKinds) +
+                               "), state, mode and branch (numbers from 0), monitor, output, x, by, "
+                               "arc-length and dark (true or "
+                               "false), magnify (above 0), width and height (200 to 8000), each once, and "
+                               "where (NAME=VALUE, each NAME once)",
+                           wrong->first, wrong->second);
   }
   if (figure.monitor && figure.over_arc_length) {
     return simple_problem(request, 400, "invalid-parameter", "Invalid parameter",

@@ -6,6 +6,7 @@
 
 #include "api/csv_field.h"
 #include "server/environment.h"
+#include "server/resources/documents.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -87,7 +88,7 @@ void add_balance(const Quotas& quotas, const Balance& balance, Response& respons
       left += ";t=" + std::to_string(balance.until_more.count());
     }
   }
-  if (!policy.empty() && !response.header("RateLimit")) {
+  if (!policy.empty()) {
     response.headers.emplace_back("RateLimit-Policy", policy);
     response.headers.emplace_back("RateLimit", left);
   }
@@ -144,11 +145,7 @@ std::string audit_document(std::string_view owner, std::span<const AuditEntry> e
                     {"id", entry.id},
                     {"owner", owner}});
   }
-  ordered_json links = ordered_json::array();
-  if (!next.empty()) {
-    links.push_back({{"rel", "next"}, {"href", next}, {"type", "application/json"}});
-  }
-  return to_text({{"count", entries.size()}, {"events", std::move(list)}, {"links", std::move(links)}});
+  return to_text({{"count", entries.size()}, {"events", std::move(list)}, {"links", page_links(next)}});
 }
 
 std::string deletion_sentence(const AuditEntry& entry) {

@@ -22,7 +22,7 @@ namespace snapthrough::server::http {
 void add_provenance(const std::string& program, const std::string& request_sha256, Response& response);
 
 /// @brief Adds the headers RateLimit-Policy and RateLimit (IETF draft "RateLimit header fields for HTTP") for
-/// each quota that is set, unless the response has them.
+/// each quota that is set.
 void add_balance(const Quotas& quotas, const Balance& balance, Response& response);
 
 /// Returns the document of GET /v1/usage.

@@ -90,7 +90,7 @@ class Routes {
   // Defined in routes_records.cpp.
   Response usage(const Request& request, const std::string& id);
   Response audit(const Request& request, const std::string& id);
-  /// Adds what the owner has left of each quota.
+  /// Adds what the owner has left of each quota when the response is complete.
   void tell_balance(const Request& request, Response& response);
   /// Returns 410 instead of a 404 for a job or sweep whose deletion is known; every other response as it is.
   Response told_of_deletion(const Request& request, const std::string& id, Response missing);

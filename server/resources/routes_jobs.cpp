@@ -188,7 +188,6 @@ Response Routes::answer_of_post(const Request& request, const std::string& id, S
   if (response.status < 400 && !applied.empty()) {
     response.headers.emplace_back("Preference-Applied", applied);
   }
-  tell_balance(request, response);
   return response;
 }
 

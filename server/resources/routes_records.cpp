@@ -1,8 +1,6 @@
 /// What owners used and did.
 
-#include <algorithm>
 #include <array>
-#include <set>
 #include <utility>
 
 #include "server/jobs/envelope.h"
@@ -28,29 +26,6 @@ constexpr const char* kAuditQuery =
     "once";
 static_assert(kLargestPage == 1000, "the message names it");
 
-/// A query parameter and what reads its value; returns false for an invalid value.
-template <class Query>
-struct Parameter {
-  std::string_view name;
-  bool (*read)(const std::string& value, Query& query);
-};
-
-/// Reads every query parameter once. @return the first parameter that is unknown, repeated or invalid
-template <class Query, std::size_t n>
-std::optional<std::pair<std::string, std::string>> read_query(const Request& request,
-                                                              const Parameter<Query> (&parameters)[n],
-                                                              Query& query) {
-  std::set<std::string> seen;
-  for (const auto& [name, value] : request.query) {
-    const auto* known = std::find_if(std::begin(parameters), std::end(parameters),
-                                     [&, &wanted = name](const auto& one) { return one.name == wanted; });
-    if (known == std::end(parameters) || !seen.insert(name).second || !known->read(value, query)) {
-      return std::pair(name, value);
-    }
-  }
-  return std::nullopt;
-}
-
 /// A query of usage as far as the request has it.
 struct WantedUsage {
   std::optional<Time> from;
@@ -59,7 +34,7 @@ struct WantedUsage {
   std::optional<std::string> format;
 };
 
-constexpr Parameter<WantedUsage> kUsageParameters[] = {
+constexpr QueryParameter<WantedUsage> kUsageParameters[] = {
     {"from", [](const std::string& value,
                 WantedUsage& query) { return (query.from = time_from(value)).has_value(); }},
     {"to",
@@ -74,7 +49,7 @@ constexpr Parameter<WantedUsage> kUsageParameters[] = {
        return value == "json" || value == "csv";
      }}};
 
-constexpr Parameter<AuditQuery> kAuditParameters[] = {
+constexpr QueryParameter<AuditQuery> kAuditParameters[] = {
     {"from",
      [](const std::string& value, AuditQuery& query) { return (query.from = time_from(value)).has_value(); }},
     {"to",
@@ -149,7 +124,16 @@ Response Routes::audit(const Request& request, const std::string& /*id*/) {
 
 void Routes::tell_balance(const Request& request, Response& response) {
   const Quotas& quotas = jobs_.limits().quotas;
-  if (!quotas.any() || response.deferred) {
+  if (!quotas.any()) {
+    return;
+  }
+  if (response.deferred) {
+    // The function's owner keeps the request alive (see Gateway).
+    response.deferred->resume = [this, &request, resume = std::move(response.deferred->resume)] {
+      Response late = resume();
+      tell_balance(request, late);
+      return late;
+    };
     return;
   }
   const StatusOr<Balance> balance = jobs_.store().ledger().balance(request.owner, jobs_.environment().now());

@@ -11,9 +11,6 @@
 
 namespace snapthrough::server {
 
-inline constexpr std::int64_t kMinute = 60'000'000;  ///< microseconds
-inline constexpr std::int64_t kHour = 60 * kMinute;  ///< microseconds
-
 /// The first hour since 1970 that begins at a time or after it.
 [[nodiscard]] inline std::int64_t first_hour(Time time) {
   return std::chrono::ceil<std::chrono::hours>(time.time_since_epoch()).count();

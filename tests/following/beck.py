@@ -23,7 +23,8 @@ sys.path[:0] = [str(HERE.parent)]
 import command_line  # noqa: E402
 
 BETA = 20.0509536  # Beck 1952: cos and cosh of the two roots of the frequency equation coincide
-# 2 P / EA of the whole force at the softest column, over the growing part of the force, a fifth of it at least
+# Tolerance: a column shortens by P / EA, which changes its load by twice that share. EA L2 / EI is 1e7 at the softest
+# column. Only the growing part of the force is compared, which is at least a fifth of it.
 SHORTENING = 2 * BETA / 1e7 / (1 - 0.8)
 
 

@@ -30,7 +30,7 @@ class GracefulStop : public ServiceTest {
     ASSERT_TRUE(service_->start().ok());
     port_ = service_->port();
   }
-  /// Whether nobody listens any more.
+  /// Returns whether the service's port refuses connections, since its listening socket is closed.
   [[nodiscard]] bool refuses() const {
     try {
       const Socket socket(port_);

@@ -366,49 +366,5 @@ TEST_F(RunnerService, TheRequestThatEndedTheServiceIsOneFailedJob) {
   EXPECT_EQ(get(port(), "/livez").status, 200);
 }
 
-/// Buckling loads by the hundred, which look at no stop token for minutes.
-json deaf() {
-  constexpr int kMembers = 60;
-  json request = json::parse(column_request("deaf"));
-  json& model = request["model"];
-  model["nodes"] = json::array();
-  model["members"] = json::array();
-  model["foundations"] = json::array();
-  const auto name = [](const char* kind, int i) { return kind + std::to_string(i); };
-  for (int i = 0; i <= kMembers; ++i) {
-    model["nodes"].push_back({{"id", name("n", i)}, {"x", i}, {"y", 0.1 * (i % 7)}});
-  }
-  const std::string section = model["sections"][0]["id"];
-  for (int i = 0; i < kMembers; ++i) {
-    model["members"].push_back(
-        {{"id", name("m", i)}, {"start", name("n", i)}, {"end", name("n", i + 1)}, {"section", section}});
-    model["foundations"].push_back({{"id", name("f", i)}, {"member", name("m", i)}, {"stiffness", 100}});
-  }
-  model["supports"] = {{{"node", "n0"}, {"fixed", {"x", "y"}}},
-                       {{"node", name("n", kMembers)}, {"fixed", {"y"}}}};
-  model["loads"] = {{{"type", "point"}, {"at", {{"node", name("n", kMembers)}}}, {"force", {-1, 0}}}};
-  for (const char* part : {"springs", "imperfections", "monitors"}) {
-    model.erase(part);
-  }
-  request["analysis"] = {
-      {"type", "buckling"}, {"modes", 100}, {"discretization", {{"elements", 200}, {"order", 5}}}};
-  return request;
-}
-
-/// It held its worker, and the service at its end, for minutes.
-TEST_F(RunnerService, AnAnalysisThatDoesNotHearThatItIsDismissedIsEnded) {
-  workers_ = 1;
-  start_with(1024 * kMegabyte);
-  const Reply created =
-      post(port(), "/v1/jobs", deaf().dump(), {"Content-Type: application/json", "Prefer: respond-async"});
-  ASSERT_EQ(created.status, 201) << created.body;
-  const std::string job = created.header("Location");
-  ASSERT_TRUE(eventually([&] { return json::parse(get(port(), job).body)["status"] == "running"; }));
-  std::this_thread::sleep_for(milliseconds(300));  // it is where it does not hear
-  EXPECT_EQ(call(port(), "DELETE", job, "", {}).status, 204);
-  // the answer comes within the longest wait of a request; the analysis alone takes longer
-  EXPECT_EQ(post(port(), "/v1/jobs", column_request("next")).status, 200);
-}
-
 }  // namespace
 }  // namespace snapthrough::server::test

@@ -18,7 +18,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Lines of a log with an event.
+/// Returns the lines of a log (JSON) whose member `event` has a value.
 std::vector<json> lines(const std::string& text, const std::string& event) {
   std::vector<json> found;
   std::istringstream log(text);

@@ -60,26 +60,8 @@ class PostgresqlLedgerStore final : public LedgerStore {
   }
 
   StatusOr<Balance> balance(std::string_view owner, Time now) override {
-    static const std::string kSql =
-        "WITH clock AS (SELECT coalesce($2, snapthrough_now()) AS moment)"
-        " SELECT (SELECT count(*) FROM jobs WHERE owner = $1 AND " +
-        may(JobEvent::claim) +
-        "),"
-        " (SELECT coalesce(sum(points - (SELECT sum(successful + failed) FROM sweep_counts"
-        "   WHERE sweep = seq)), 0) FROM sweeps WHERE owner = $1 AND " +
-        may(SweepEvent::dismiss) +
-        " AND NOT removed)::bigint,"
-        " (SELECT coalesce(sum(bytes), 0) FROM owner_bytes WHERE owner = $1)::bigint,"
-        " (SELECT coalesce(sum(points), 0) FROM owner_points WHERE owner = $1"
-        "   AND minute > moment / 60000000 - 60)::bigint,"
-        " (SELECT min(minute) FROM owner_points WHERE owner = $1 AND minute > moment / 60000000 - 60),"
-        " moment FROM clock";
-    return database_.read<Balance>([&](Connection& connection) {
-      const Rows rows = connection.run(kSql, Parameters().add(owner).add(clock_.at(now)));
-      const ResultRow row = rows[0];
-      return Balance{{row.integer(0), row.integer(1), row.integer(2), row.integer(3)},
-                     until_more(row.optional_integer(4), row.integer(5))};
-    });
+    return database_.read<Balance>(
+        [&](Connection& connection) { return balance_of(connection, owner, INT64_MAX, clock_.at(now)); });
   }
 
   StatusOr<bool> forget(std::chrono::seconds age, int most, Time now) override {

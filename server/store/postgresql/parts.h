@@ -80,6 +80,11 @@ Status migrate(Connection& connection, std::span<const Migration> migrations);
 [[nodiscard]] Status admit(Connection& connection, std::string_view owner, const Quotas& quotas,
                            const Usage& addition, const std::optional<std::int64_t>& now);
 
+/// What an owner has of what quotas bound. @param most_jobs jobs are counted up to this number @param now as
+/// for admit()
+[[nodiscard]] Balance balance_of(Connection& connection, std::string_view owner, std::int64_t most_jobs,
+                                 const std::optional<std::int64_t>& now);
+
 /// Adds statements that insert branches with their series, and critical points. @param job its id
 void add_path(std::vector<Statement>& statements, std::string_view job, const std::vector<Branch>& branches,
               const std::vector<CriticalPoint>& critical_points);

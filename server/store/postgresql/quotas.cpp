@@ -1,14 +1,10 @@
+#include "server/store/ledger_rows.h"
 #include "server/store/postgresql/parts.h"
 
 namespace snapthrough::server::postgresql {
 
-Status admit(Connection& connection, std::string_view owner, const Quotas& quotas, const Usage& addition,
-             const std::optional<std::int64_t>& now) {
-  if (!quotas.any()) {
-    return {};
-  }
-  connection.run("SELECT pg_advisory_xact_lock(hashtextextended($1, 2))", Parameters().add(owner));
-  // Jobs are counted up to the quota.
+Balance balance_of(Connection& connection, std::string_view owner, std::int64_t most_jobs,
+                   const std::optional<std::int64_t>& now) {
   static const std::string kSql =
       "SELECT (SELECT count(*) FROM (SELECT FROM jobs WHERE owner = $1 AND " + may(JobEvent::claim) +
       " LIMIT $2) AS few),"
@@ -18,10 +14,22 @@ Status admit(Connection& connection, std::string_view owner, const Quotas& quota
       may(SweepEvent::dismiss) +
       " AND NOT removed)::bigint,"
       " (SELECT coalesce(sum(bytes), 0) FROM owner_bytes WHERE owner = $1)::bigint,"
-      " (SELECT coalesce(sum(points), 0) FROM owner_points WHERE owner = $1"
-      "   AND minute > coalesce($3, snapthrough_now()) / 60000000 - 60)::bigint";
-  const Rows rows = connection.run(kSql, Parameters().add(owner).add(quotas.jobs_waiting).add(now));
-  const Usage has{rows[0].integer(0), rows[0].integer(1), rows[0].integer(2), rows[0].integer(3)};
+      " coalesce(sum(points), 0)::bigint, min(minute), moment"
+      " FROM (SELECT coalesce($3, snapthrough_now()) AS moment) AS clock"
+      " LEFT JOIN owner_points ON owner = $1 AND minute > moment / 60000000 - 60 GROUP BY moment";
+  const Rows rows = connection.run(kSql, Parameters().add(owner).add(most_jobs).add(now));
+  const ResultRow row = rows[0];
+  return {{row.integer(0), row.integer(1), row.integer(2), row.integer(3)},
+          until_more(row.optional_integer(4), row.integer(5))};
+}
+
+Status admit(Connection& connection, std::string_view owner, const Quotas& quotas, const Usage& addition,
+             const std::optional<std::int64_t>& now) {
+  if (!quotas.any()) {
+    return {};
+  }
+  connection.run("SELECT pg_advisory_xact_lock(hashtextextended($1, 2))", Parameters().add(owner));
+  const Usage has = balance_of(connection, owner, quotas.jobs_waiting, now).has;
   Status status = check_quotas(quotas, has, addition);
   if (status.ok() && quotas.points_per_hour > 0 && addition.points > 0) {
     connection.run_all(std::vector<Statement>{

@@ -54,18 +54,10 @@ class SqliteLedgerStore final : public LedgerStore {
 
   StatusOr<Balance> balance(std::string_view owner, Time now) override {
     return database_.read<Balance>([&](const Connection& connection) {
-      Balance balance;
-      Statement row = connection.query(
-          "SELECT jobs_waiting, points_waiting, bytes_kept FROM owners WHERE owner = ?", owner);
-      if (row.step()) {
-        balance.has = Usage{row.integer(0), row.integer(1), row.integer(2)};
-      }
-      Statement hour = connection.query(
-          "SELECT ifnull(sum(points), 0), min(minute) FROM owner_points WHERE owner = ? AND minute > ?",
-          owner, to_row(now) / kMinute - 60);
-      hour.step();
-      balance.has.points_this_hour = hour.integer(0);
-      balance.until_more = until_more(hour.optional_integer(1), to_row(now));
+      Balance balance{usage_of(connection, owner)};
+      const HourOfPoints hour = points_of_hour(connection, owner, now);
+      balance.has.points_this_hour = hour.points;
+      balance.until_more = until_more(hour.oldest, to_row(now));
       return balance;
     });
   }

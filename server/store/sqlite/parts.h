@@ -2,7 +2,9 @@
 /// @file
 /// What the files of the driver give one another. Everything that takes a Connection throws Error.
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,6 +55,16 @@ Status migrate(Connection& connection, std::span<const Migration> migrations, Ti
 /// Counts what an owner hands in, or returns as check_quotas() which quota forbids it.
 [[nodiscard]] Status admit(Connection& connection, std::string_view owner, const Quotas& quotas,
                            const Usage& addition, Time now);
+
+/// What an owner has waiting and keeps, without points of an hour.
+[[nodiscard]] Usage usage_of(const Connection& connection, std::string_view owner);
+/// Points that an owner handed in or tried again during the last sixty minutes, and the first of these
+/// minutes (since 1970) that has any. Points are counted only while their quota is set.
+struct HourOfPoints {
+  std::int64_t points = 0;
+  std::optional<std::int64_t> oldest;
+};
+[[nodiscard]] HourOfPoints points_of_hour(const Connection& connection, std::string_view owner, Time now);
 
 /// The rows of a statement as keys, see read_used_key().
 [[nodiscard]] inline std::vector<UsedKey> used_keys(Statement rows) {

@@ -7,13 +7,6 @@ std::int64_t minute_of(Time now) {
   return std::chrono::duration_cast<std::chrono::minutes>(now.time_since_epoch()).count();
 }
 
-std::int64_t points_since(const Connection& connection, std::string_view owner, std::int64_t minute) {
-  Statement row = connection.query(
-      "SELECT ifnull(sum(points), 0) FROM owner_points WHERE owner = ? AND minute > ?", owner, minute);
-  row.step();
-  return row.integer(0);
-}
-
 void add_points(Connection& connection, std::string_view owner, std::int64_t minute, std::int64_t points) {
   connection.run("DELETE FROM owner_points WHERE owner = ? AND minute <= ?", owner, minute - 60);
   connection.run(
@@ -24,16 +17,28 @@ void add_points(Connection& connection, std::string_view owner, std::int64_t min
 
 }  // namespace
 
+Usage usage_of(const Connection& connection, std::string_view owner) {
+  Statement row =
+      connection.query("SELECT jobs_waiting, points_waiting, bytes_kept FROM owners WHERE owner = ?", owner);
+  return row.step() ? Usage{row.integer(0), row.integer(1), row.integer(2)} : Usage{};
+}
+
+HourOfPoints points_of_hour(const Connection& connection, std::string_view owner, Time now) {
+  Statement row = connection.query(
+      "SELECT ifnull(sum(points), 0), min(minute) FROM owner_points WHERE owner = ? AND minute > ?", owner,
+      minute_of(now) - 60);
+  row.step();
+  return {row.integer(0), row.optional_integer(1)};
+}
+
 Status admit(Connection& connection, std::string_view owner, const Quotas& quotas, const Usage& addition,
              Time now) {
   if (!quotas.any()) {
     return {};
   }
-  Statement row =
-      connection.query("SELECT jobs_waiting, points_waiting, bytes_kept FROM owners WHERE owner = ?", owner);
-  Usage has = row.step() ? Usage{row.integer(0), row.integer(1), row.integer(2)} : Usage{};
+  Usage has = usage_of(connection, owner);
   const bool by_hour = quotas.points_per_hour > 0 && addition.points > 0;
-  has.points_this_hour = by_hour ? points_since(connection, owner, minute_of(now) - 60) : 0;
+  has.points_this_hour = by_hour ? points_of_hour(connection, owner, now).points : 0;
   Status status = check_quotas(quotas, has, addition);
   if (status.ok() && by_hour) {
     add_points(connection, owner, minute_of(now), addition.points);
