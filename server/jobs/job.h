@@ -127,6 +127,9 @@ struct Submitted {
   std::string id;
 };
 
+/// Owners whose work a worker may take: of all, or of those for whom nothing of the kind (jobs, sweeps) runs.
+enum class OwnersInTurn { all, idle };
+
 /// @brief Claim of a worker on a job. Stores refuse writes under a claim whose attempt is not the job's: the
 /// job was given to another worker since.
 struct Claim {

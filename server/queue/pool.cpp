@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -19,6 +20,10 @@ using std::chrono::duration;
 /// store it is longer, because Neighbours polls for all workers of the process.
 constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kLongestSharedNap{10.0};
+/// Begin of the work of a worker that has none.
+constexpr double kWaits = std::numeric_limits<double>::infinity();
+/// Number of times that the spare worker looks for work during JobLimits::spare_after.
+constexpr int kSpareLooks = 5;
 /// Pause before another attempt to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
 
@@ -184,10 +189,11 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
   log_job_end(context.log, claim, outcome);
 }
 
-/// Claims the oldest accepted job; nothing when there is none or the store fails.
-std::optional<Claim> claim_one(const WorkerContext& context) {
+/// Claims the next accepted job; nothing when there is none or the store fails.
+std::optional<Claim> claim_one(const WorkerContext& context, OwnersInTurn owners) {
   WaitingCount::Change change(context.waiting);
-  StatusOr<std::optional<Claim>> claim = context.store.claim(context.new_lease(), context.environment.now());
+  StatusOr<std::optional<Claim>> claim =
+      context.store.claim(context.new_lease(), context.environment.now(), owners);
   if (!claim.ok()) {
     log_store_trouble(context.log, claim.status());
     return std::nullopt;
@@ -197,6 +203,27 @@ std::optional<Claim> claim_one(const WorkerContext& context) {
   }
   return *std::move(claim);
 }
+
+/// Runner that is made for its first task.
+class RunnerOnDemand final : public Runner {
+ public:
+  explicit RunnerOnDemand(const RunnerFactory& make) : make_(make) {}
+  JobRun run_job(std::string_view request, const Hooks& hooks) override {
+    return made().run_job(request, hooks);
+  }
+  WorkUsage run_units(const UnitTask& task) override { return made().run_units(task); }
+
+ private:
+  Runner& made() {
+    if (!runner_) {
+      runner_ = make_();
+    }
+    return *runner_;
+  }
+
+  const RunnerFactory& make_;
+  std::unique_ptr<Runner> runner_;
+};
 
 }  // namespace
 
@@ -210,19 +237,26 @@ void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runne
 }
 
 WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory make)
-    : context_(context), make_(std::move(make)) {
-  threads_.reserve(static_cast<std::size_t>(threads));
-  for (int i = 0; i < threads; ++i) {
-    threads_.emplace_back([this](const std::stop_token& stop) { run(stop); });
+    : context_(context), make_(std::move(make)), begun_(static_cast<std::size_t>(threads)) {
+  std::fill(begun_.begin(), begun_.end(), kWaits);
+  threads_.reserve(begun_.size() + 1);
+  try {
+    for (std::size_t i = 0; i < begun_.size(); ++i) {
+      threads_.emplace_back([this, i] { run(i, stop_.get_token()); });
+    }
+    if (threads > 0) {
+      threads_.emplace_back([this] { run_spare(stop_.get_token()); });
+    }
+  } catch (...) {
+    stop();  // the system has no thread left
+    throw;
   }
 }
 
 WorkerPool::~WorkerPool() { stop(); }
 
 void WorkerPool::stop() {
-  for (std::jthread& thread : threads_) {
-    thread.request_stop();
-  }
+  stop_.request_stop();
   for (std::jthread& thread : threads_) {
     if (thread.joinable()) {
       thread.join();
@@ -230,15 +264,40 @@ void WorkerPool::stop() {
   }
 }
 
-bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop) {
-  const std::optional<Claim> claim = claim_one(context_);
+bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop, OwnersInTurn owners) {
+  const std::optional<Claim> claim = claim_one(context_, owners);
   if (claim) {
     work_on(*claim, context_, runner, stop);
   }
   return claim.has_value();
 }
 
-void WorkerPool::run(const std::stop_token& stop) {
+/// Whether all workers have been at the same work for long.
+bool WorkerPool::are_held() const {
+  const double before = now() - duration<double>(context_.limits.spare_after).count();
+  return std::all_of(begun_.begin(), begun_.end(), [&](const auto& begun) { return begun < before; });
+}
+
+void WorkerPool::run_spare(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    pause(stop, context_.limits.spare_after / kSpareLooks);
+    if (are_held() && (context_.waiting.value() > 0 || context_.sweeps.is_left())) {
+      work_for_idle_owners(stop);
+    }
+  }
+}
+
+void WorkerPool::work_for_idle_owners(const std::stop_token& stop) {
+  RunnerOnDemand runner(make_);
+  bool worked = true;
+  while (worked && are_held() && !stop.stop_requested()) {
+    worked = claim_and_work(runner, stop, OwnersInTurn::idle);
+    worked = context_.sweeps.do_next(runner, stop, OwnersInTurn::idle) || worked;
+  }
+}
+
+void WorkerPool::run(std::size_t number, const std::stop_token& stop) {
+  std::atomic<double>& begun = begun_[number];
   const std::unique_ptr<Runner> own = make_();
   Runner& runner = *own;
   std::uint64_t seen = 0;
@@ -246,6 +305,7 @@ void WorkerPool::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     // Jobs and sweeps alternate, so that neither waits for the end of the other. While sweeps run, the store
     // is not queried for jobs unless some are known to wait.
+    begun = now();
     const bool waited = context_.waiting.value() > 0;
     const bool worked = waited && claim_and_work(runner, stop);
     if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
@@ -253,9 +313,12 @@ void WorkerPool::run(const std::stop_token& stop) {
       continue;
     }
     // Jobs handed over directly have priority over stored ones, so that no worker idles while jobs wait.
+    begun = kWaits;
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
+      begun = now();
       work_on(*handoff, context_, runner, stop);
+      begun = kWaits;
       if (context_.waiting.value() > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
         break;
       }

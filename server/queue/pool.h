@@ -2,6 +2,8 @@
 /// @file
 /// Worker threads, which claim, solve and complete jobs and points of sweeps.
 
+#include <atomic>
+#include <cstddef>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -22,7 +24,12 @@ void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, c
 void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
              const std::stop_token& stop);
 
-/// @brief A fixed number of worker threads. Thread-safe; the constructor's arguments must outlive the object.
+/// @brief A fixed number of worker threads, and a spare one. Thread-safe; the constructor's arguments must
+/// outlive the object.
+///
+/// While all workers have been at the same work for JobLimits::spare_after, the spare one works for owners
+/// for whom nothing of the kind (jobs, sweeps) runs: the long work of one owner does not stop the others. It
+/// has a runner while it works.
 class WorkerPool {
  public:
   /// @param make makes the runner of a thread; called once on each
@@ -38,11 +45,19 @@ class WorkerPool {
   void stop();
 
  private:
-  void run(const std::stop_token& stop);
-  bool claim_and_work(Runner& runner, const std::stop_token& stop);
+  void run(std::size_t number, const std::stop_token& stop);
+  void run_spare(const std::stop_token& stop);
+  void work_for_idle_owners(const std::stop_token& stop);
+  bool claim_and_work(Runner& runner, const std::stop_token& stop, OwnersInTurn owners = OwnersInTurn::all);
+  [[nodiscard]] bool are_held() const;
+  [[nodiscard]] double now() const { return context_.environment.monotonic_seconds(); }
 
   const WorkerContext& context_;
   RunnerFactory make_;
+  /// Time of the monotonic clock at which each worker began its present work; infinite: it waits for some.
+  std::vector<std::atomic<double>> begun_;
+  /// Of all threads: none takes what another gives back when the pool stops.
+  std::stop_source stop_;
   std::vector<std::jthread> threads_;
 };
 

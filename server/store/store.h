@@ -82,7 +82,11 @@ class Store {
   /// Gives an accepted job to the caller and makes it running; empty when none waits. Owners take turns; the
   /// oldest job of an owner comes first. The claim survives the death of the process; after that of the
   /// machine the job may be accepted again.
-  virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) = 0;
+  /// @param owners idle: those for whom no job runs in this store
+  virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, OwnersInTurn owners) = 0;
+  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) {
+    return claim(lease, now, OwnersInTurn::all);
+  }
 
   /// Renews the leases of claims that hold; returns the ids of the others.
   virtual StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until,

@@ -84,14 +84,26 @@ std::uint64_t SweepScheduler::served(const std::string& owner) const {
   return found == served_.end() ? 0 : found->second;
 }
 
-std::optional<SweepTurn> SweepScheduler::next(double seconds) {
+/// Whether no chunk of the owner's sweeps is in work.
+bool SweepScheduler::is_idle(const std::string& owner) const {
+  return std::none_of(watches_.begin(), watches_.end(), [&](const Watch* watch) {
+    const auto of_watch = std::find_if(sweeps_.begin(), sweeps_.end(),
+                                       [&](const auto& sweep) { return sweep->id == watch->claim_.sweep; });
+    return of_watch != sweeps_.end() && (*of_watch)->owner == owner;
+  });
+}
+
+std::optional<SweepTurn> SweepScheduler::next(double seconds, OwnersInTurn owners) {
   const std::lock_guard guard(mutex_);
+  const auto waits = [&](const ActiveSweep& sweep) {
+    return !sweep.aside_ && !sweep.exhausted_ && (owners == OwnersInTurn::all || is_idle(sweep.owner));
+  };
   const auto order = [&](const auto& sweep) {
-    return std::tuple(sweep->aside_ || sweep->exhausted_, served(sweep->owner), sweep->served_);
+    return std::tuple(!waits(*sweep), served(sweep->owner), sweep->served_);
   };
   const auto first = std::min_element(sweeps_.begin(), sweeps_.end(),
                                       [&](const auto& a, const auto& b) { return order(a) < order(b); });
-  if (first == sweeps_.end() || (*first)->aside_ || (*first)->exhausted_) {
+  if (first == sweeps_.end() || !waits(**first)) {
     return std::nullopt;
   }
   ActiveSweep& sweep = **first;

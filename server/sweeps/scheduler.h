@@ -76,8 +76,9 @@ class SweepScheduler {
   [[nodiscard]] bool has_units() const { return available_; }
   [[nodiscard]] std::size_t count() const;
 
-  /// Turn of the next sweep that may have units left, for a chunk of about `seconds`.
-  std::optional<SweepTurn> next(double seconds);
+  /// @brief Turn of the next sweep that may have units left, for a chunk of about `seconds`.
+  /// @param owners idle: those of whose sweeps no worker of this process has a chunk
+  std::optional<SweepTurn> next(double seconds, OwnersInTurn owners = OwnersInTurn::all);
   /// Notes that the store had no units for that turn.
   void exhausted(const SweepTurn& turn);
   /// Notes that units of any sweep may have come back; removes exhausted sweeps without a worker in this
@@ -133,6 +134,7 @@ class SweepScheduler {
   template <class Is>
   void stop_if(Is is, StopReason reason);
   static std::uint64_t most_units(const ActiveSweep& sweep, double seconds);
+  [[nodiscard]] bool is_idle(const std::string& owner) const;
   [[nodiscard]] std::uint64_t served(const std::string& owner) const;
   void look();
 

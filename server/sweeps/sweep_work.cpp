@@ -249,12 +249,12 @@ void SweepWork::leave(const std::string& id, const Finding& finding) {
                     {"detail", std::string_view(why)}});
 }
 
-std::optional<Chunk> SweepWork::take() {
+std::optional<Chunk> SweepWork::take(OwnersInTurn owners) {
   if (unloaded_) {
     load();
   }
   const double seconds = world_.waiting.value() > 0 ? kWhileJobsWait : scheduler_.chunk_seconds();
-  while (const std::optional<SweepTurn> turn = scheduler_.next(seconds)) {
+  while (const std::optional<SweepTurn> turn = scheduler_.next(seconds, owners)) {
     const std::string& id = turn->sweep->id;
     const Time now = world_.environment.now();
     const double start = world_.environment.monotonic_seconds();
@@ -278,8 +278,8 @@ std::optional<Chunk> SweepWork::take() {
   return std::nullopt;
 }
 
-bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
-  const std::optional<Chunk> chunk = take();
+bool SweepWork::do_next(Runner& runner, const std::stop_token& stop, OwnersInTurn owners) {
+  const std::optional<Chunk> chunk = take(owners);
   if (!chunk) {
     return false;
   }

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <condition_variable>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -23,6 +25,41 @@ using std::chrono_literals::operator""s;
 const Headers kAnn{"Content-Type: application/json", "Authorization: Bearer alice"};
 const Headers kBob{"Content-Type: application/json", "Authorization: Bearer bob"};
 
+/// Holds one thread, the next that passes after hold_next(), until it is opened.
+class Gate {
+ public:
+  void pass() {
+    std::unique_lock lock(mutex_);
+    if (state_ == State::holds_next) {
+      set(State::holds);
+      changed_.wait(lock, [this] { return state_ == State::open; });
+    }
+  }
+  void hold_next() {
+    const std::lock_guard guard(mutex_);
+    set(State::holds_next);
+  }
+  void open() {
+    const std::lock_guard guard(mutex_);
+    set(State::open);
+  }
+  void wait_until_it_holds() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return state_ == State::holds; });
+  }
+
+ private:
+  enum class State { open, holds_next, holds };
+  void set(State state) {
+    state_ = state;
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_ = State::open;
+};
+
 class FrontLimits : public ServiceTest {
  protected:
   ServiceConfig keyed() const {
@@ -37,8 +74,22 @@ class FrontLimits : public ServiceTest {
     const Status status = service_->start();
     ASSERT_TRUE(status.ok()) << status.message();
   }
+  /// Starts with one thread of the front, which passes the gate with each request: its id is random.
+  void start_gated(ServiceConfig config) {
+    config.listener.threads = 1;
+    Environment environment = Environment::system();
+    environment.random_bits = [this, bits = environment.random_bits] {
+      gate_.pass();
+      return bits();
+    };
+    service_ = std::make_unique<Service>(config, environment, local_runners(quick), log_);
+    const Status status = service_->start();
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
   static Result quick(const Model&, const Analysis&, const Hooks&) { return {}; }
   [[nodiscard]] int ready() const { return get(port(), "/readyz").status; }
+
+  Gate gate_;
 };
 
 TEST_F(FrontLimits, ADocumentThatAStopCutsShortIsNotRefusedForGood) {
@@ -56,23 +107,27 @@ TEST_F(FrontLimits, ADocumentThatAStopCutsShortIsNotRefusedForGood) {
 }
 
 TEST_F(FrontLimits, AClientThatEndedItsSendingSideGetsItsAnswer) {
-  ServiceConfig hasty = keyed();
-  hasty.listener.threads = 1;
-  hasty.listener.times.reading = 3s;  // over the second after which clients that have left are noticed
-  start_with(hasty);
-  const std::string costly = costly_request(800);
+  start_gated(keyed());
+  gate_.hold_next();
   std::vector<std::unique_ptr<Socket>> halves;
   for (int i = 0; i < 3; ++i) {  // the first is worked on, others wait in the row
     halves.push_back(std::make_unique<Socket>(port()));
-    halves.back()->send(posted("/v1/check", i == 0 ? costly : column_request(), kAnn));
+    halves.back()->send(posted("/v1/jobs", column_request(std::to_string(i)), kAnn));
     halves.back()->end_sending();
+    if (i == 0) {
+      gate_.wait_until_it_holds();
+    }
   }
+  for (std::size_t i = 1; i < halves.size(); ++i) {
+    EXPECT_EQ(halves[i]->receive().status, 100) << "the service asks whether the client still waits";
+  }
+  gate_.open();
   for (const auto& half : halves) {
     Reply reply = half->receive();
-    if (reply.status == 100) {
+    if (reply.status == 100) {  // asked at the next look of its work
       reply = half->receive();
     }
-    EXPECT_EQ(reply.status, half == halves.front() ? 422 : 200) << reply.body;
+    EXPECT_EQ(reply.status, 200) << reply.body;
     EXPECT_TRUE(half->at_end());
   }
 }
@@ -117,24 +172,25 @@ TEST_F(FrontLimits, AStreamWhoseClientHasLeftEnds) {
 
 TEST_F(FrontLimits, ItIsNotReadyWhileRequestsWaitTooLongForAThread) {
   ServiceConfig narrow = keyed();
-  narrow.listener.threads = 1;
-  narrow.listener.times.reading = 3600s;
   narrow.listener.times.thread = 100ms;
-  start_with(narrow);
+  start_gated(narrow);
   EXPECT_EQ(ready(), 200);
-  auto costly = std::make_unique<Socket>(port());
-  costly->send(posted("/v1/check", costly_request(800), kAnn));
+  gate_.hold_next();
+  Socket first(port());
+  first.send(posted("/v1/jobs", column_request("first"), kAnn));
+  gate_.wait_until_it_holds();
   Socket own(port());
   own.send(posted("/v1/check", column_request(), kAnn));
   std::this_thread::sleep_for(300ms);
   EXPECT_EQ(ready(), 200) << "a party that waits for itself does not make the service unready";
   Socket other(port());
-  other.send(posted("/v1/jobs", column_request(), kBob));
+  other.send(posted("/v1/check", column_request(), kBob));
   EXPECT_TRUE(eventually([&] { return ready() == 503; }));
   const Reply reply = get(port(), "/readyz");
   EXPECT_THAT(reply.body, HasSubstr("requests wait for a thread for longer than 100 ms"));
   EXPECT_EQ(reply.header("Retry-After"), "5");
-  costly.reset();
+  gate_.open();
+  EXPECT_EQ(first.receive().status, 200);
   EXPECT_EQ(own.receive().status, 200);
   EXPECT_EQ(other.receive().status, 200);
   EXPECT_EQ(ready(), 200);

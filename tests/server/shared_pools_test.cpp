@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/server/support/costly.h"
+#include "tests/server/support/eventually.h"
 #include "tests/server/support/owners.h"
 #include "tests/server/support/running_service.h"
 
@@ -26,7 +27,7 @@ class SharedPools : public ServiceTest {
   ServiceConfig keyed() const {
     ServiceConfig keyed = config();
     keyed.keys = ann_and_bob();
-    keyed.listener.limits.body_bytes = 1'000'000;
+    keyed.listener.limits.body_bytes = 4'000'000;
     return keyed;
   }
   void start_with(const ServiceConfig& config) {
@@ -79,6 +80,50 @@ TEST_F(SharedPools, ReadingEndsWhenItsClientHasGone) {
   }
   EXPECT_EQ(post(port(), "/v1/jobs", column_request(), kAnn).status, 200)
       << "the one turn of the party is free again";
+}
+
+TEST_F(SharedPools, LongWorkOfOneOwnerOnAllWorkersDoesNotStopOthers) {
+  const auto solver = std::make_shared<GatedSolver>();
+  ServiceConfig narrow = keyed();
+  narrow.workers = 1;
+  narrow.jobs.spare_after = 100ms;
+  service_ = std::make_unique<Service>(narrow, Environment::system(), local_runners(gated(solver)), log_);
+  ASSERT_TRUE(service_->start().ok());
+  const auto submitted = [&](const std::string& target, const std::string& body, Headers headers) {
+    headers.emplace_back("Prefer: respond-async");
+    return post(port(), target, body, headers).header("Location");
+  };
+  const auto status = [&](const std::string& path, const Headers& headers) -> std::string {
+    return json::parse(get(port(), path, headers).body)["status"];
+  };
+  const std::string first = submitted("/v1/jobs", column_request("first"), kAnn);
+  solver->wait_started(1);
+  const std::string second = submitted("/v1/jobs", column_request("second"), kAnn);
+  const std::string of_bob = submitted("/v1/jobs", column_request("third"), kBob);
+  solver->wait_started(2);
+  EXPECT_EQ(status(of_bob, kBob), "running");
+  EXPECT_EQ(status(second, kAnn), "accepted") << "the spare worker works for others than those who run";
+  solver->open();
+  for (const auto& [path, headers] :
+       {std::pair(first, kAnn), std::pair(second, kAnn), std::pair(of_bob, kBob)}) {
+    EXPECT_TRUE(eventually([&] { return status(path, headers) == "successful"; })) << path;
+  }
+}
+
+TEST_F(SharedPools, LongJobsOnAllWorkersDoNotStopSweeps) {
+  const auto solver = std::make_shared<GatedSolver>();
+  ServiceConfig narrow = keyed();
+  narrow.workers = 1;
+  narrow.jobs.spare_after = 100ms;
+  service_ = std::make_unique<Service>(narrow, Environment::system(), local_runners(gated(solver)), log_);
+  ASSERT_TRUE(service_->start().ok());
+  Headers async = kAnn;
+  async.emplace_back("Prefer: respond-async");
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request("first"), async).status, 201);
+  solver->wait_started(1);
+  EXPECT_EQ(post(port(), "/v1/sweeps", column_sweep(2), kBob).status, 201);
+  solver->wait_started(2);
+  solver->open();
 }
 
 TEST_F(SharedPools, AKeyIsJudgedBeforeTheBodyComes) {

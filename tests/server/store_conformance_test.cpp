@@ -426,21 +426,6 @@ TEST_P(StoreConformance, ASharedStoreServesManyProcessesAndAnotherOnlyOne) {
   EXPECT_EQ(job(1).state, JobState::running);
 }
 
-TEST_P(StoreConformance, OwnersTakeTurns) {
-  const std::vector<std::string> owners{"ann", "ann", "ann", "bob", "bob", "cid"};
-  for (std::size_t i = 0; i < owners.size(); ++i) {
-    NewJob job = new_job(id_number(static_cast<int>(i)));
-    job.owner = owners[i];
-    ASSERT_TRUE(store_->submit(job).ok());
-  }
-  std::vector<std::string> given;
-  for (std::size_t i = 0; i < owners.size(); ++i) {
-    given.push_back(claim().id);
-  }
-  EXPECT_THAT(
-      given, ElementsAre(id_number(0), id_number(3), id_number(5), id_number(1), id_number(4), id_number(2)));
-}
-
 TEST_P(StoreConformance, EachJobIsClaimedByOneThreadOnly) {
   constexpr int kJobs = 60;
   for (int i = 0; i < kJobs; ++i) {

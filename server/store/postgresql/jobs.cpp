@@ -23,6 +23,27 @@ Statement put_back(std::string_view id) {
   return {kSql, Parameters().add(id)};
 }
 
+/// Statement that claims a job that fulfils a condition: the oldest of the next owner by name after the first
+/// parameter. Jobs that other transactions are about to take are skipped; when no job of that owner is left,
+/// a job of any owner, in the order of the index: the oldest of all would be searched among all jobs that are
+/// kept.
+std::string take_next_of(const std::string& waits) {
+  return "WITH turn AS (SELECT coalesce((SELECT min(owner) FROM jobs WHERE " + waits +
+         " AND owner > $1), (SELECT min(owner) FROM jobs WHERE " + waits + ")) AS owner)," +
+         " mine AS MATERIALIZED (SELECT seq FROM jobs WHERE " + waits +
+         " AND owner = (SELECT owner FROM turn) ORDER BY seq LIMIT 1 FOR UPDATE SKIP LOCKED)," +
+         " other AS MATERIALIZED (SELECT seq FROM jobs WHERE " + waits +
+         " AND NOT EXISTS (SELECT FROM mine) ORDER BY owner, seq LIMIT 1 FOR UPDATE SKIP LOCKED)," +
+         " taken AS (UPDATE jobs SET " + becomes(JobEvent::claim) +
+         ", attempt = attempt + 1, started_us = coalesce($2, snapthrough_now())"
+         "  WHERE seq = (SELECT seq FROM mine UNION ALL SELECT seq FROM other)"
+         "  RETURNING seq, id, attempt, created_us, owner, started_us),"
+         " leased AS (INSERT INTO job_leases (job, worker, until_us) SELECT seq, $3, started_us + $4 FROM "
+         "taken)"
+         " SELECT id, attempt, document, started_us - created_us, owner FROM taken JOIN requests ON job = "
+         "seq";
+}
+
 /// Inserts the job with its request, and with its lease if it has one.
 Statement insert_job(const NewJob& job, const Clock& clock) {
   static constexpr std::string_view kSql =
@@ -183,25 +204,13 @@ class PostgresqlStore final : public Store {
           key_parameters(id, used)}});
   }
 
-  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) override {
-    // The oldest job of the next owner, by name, after the owner whose job was claimed here last. Jobs that
-    // other transactions are about to take are skipped; when no job of that owner is left, a job of any
-    // owner, in the order of the index: the oldest of all would be searched among all jobs that are kept.
+  using Store::claim;
+  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, OwnersInTurn owners) override {
     static const std::string kWaits = may(JobEvent::claim);
-    static const std::string kSql =
-        "WITH turn AS (SELECT coalesce((SELECT min(owner) FROM jobs WHERE " + kWaits +
-        " AND owner > $1), (SELECT min(owner) FROM jobs WHERE " + kWaits + ")) AS owner)," +
-        " mine AS MATERIALIZED (SELECT seq FROM jobs WHERE " + kWaits +
-        " AND owner = (SELECT owner FROM turn) ORDER BY seq LIMIT 1 FOR UPDATE SKIP LOCKED)," +
-        " other AS MATERIALIZED (SELECT seq FROM jobs WHERE " + kWaits +
-        " AND NOT EXISTS (SELECT FROM mine) ORDER BY owner, seq LIMIT 1 FOR UPDATE SKIP LOCKED)," +
-        " taken AS (UPDATE jobs SET " + becomes(JobEvent::claim) +
-        ", attempt = attempt + 1, started_us = coalesce($2, snapthrough_now())"
-        "  WHERE seq = (SELECT seq FROM mine UNION ALL SELECT seq FROM other)"
-        "  RETURNING seq, id, attempt, created_us, owner, started_us),"
-        " leased AS (INSERT INTO job_leases (job, worker, until_us) SELECT seq, $3, started_us + $4 FROM "
-        "taken)"
-        " SELECT id, attempt, document, started_us - created_us, owner FROM taken JOIN requests ON job = seq";
+    static const std::string kOfAll = take_next_of(kWaits);
+    static const std::string kOfIdle = take_next_of(
+        kWaits +
+        " AND owner NOT IN (SELECT running.owner FROM jobs AS running JOIN job_leases ON job = running.seq)");
     std::string last;
     {
       const std::lock_guard guard(turn_mutex_);
@@ -219,7 +228,8 @@ class PostgresqlStore final : public Store {
       const Time created = now - std::chrono::microseconds(rows[0].integer(3));
       return std::optional(Claim{rows[0].text(0), rows[0].whole(1), rows[0].text(2), created});
     };
-    return database_.write_at_once<std::optional<Claim>>({{kSql, wanted}}, Durability::unsynced, use);
+    return database_.write_at_once<std::optional<Claim>>(
+        {{owners == OwnersInTurn::all ? kOfAll : kOfIdle, wanted}}, Durability::unsynced, use);
   }
 
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until, Time now) override {

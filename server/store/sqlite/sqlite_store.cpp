@@ -185,15 +185,23 @@ class SqliteSubmission final : public JobSubmission {
   Connection& connection_;
 };
 
+/// Query for the oldest job that fulfils a condition, of the next owner by name after the parameter.
+std::string next_of(const std::string& waits) {
+  return "SELECT jobs.id, jobs.attempt, requests.document, jobs.created_us, jobs.seq, jobs.owner FROM jobs"
+         " JOIN requests ON requests.job = jobs.seq WHERE jobs.seq = (SELECT seq FROM jobs WHERE " +
+         waits + " AND owner = coalesce((SELECT min(owner) FROM jobs WHERE " + waits +
+         " AND owner > ?1), (SELECT min(owner) FROM jobs WHERE " + waits + ")) ORDER BY seq LIMIT 1)";
+}
+
 /// Finds the oldest accepted job of the next owner, by name, after `last` that has one; sets `last`.
-std::optional<Claim> next_in_turn(const Connection& connection, std::string& last, std::int64_t& row) {
+std::optional<Claim> next_in_turn(const Connection& connection, OwnersInTurn owners, std::string& last,
+                                  std::int64_t& row) {
   static const std::string kWaits = may(JobEvent::claim);
-  static const std::string kSql =
-      "SELECT jobs.id, jobs.attempt, requests.document, jobs.created_us, jobs.seq, jobs.owner FROM jobs"
-      " JOIN requests ON requests.job = jobs.seq WHERE jobs.seq = (SELECT seq FROM jobs WHERE " +
-      kWaits + " AND owner = coalesce((SELECT min(owner) FROM jobs WHERE " + kWaits +
-      " AND owner > ?1), (SELECT min(owner) FROM jobs WHERE " + kWaits + ")) ORDER BY seq LIMIT 1)";
-  Statement found = connection.query(kSql, last);
+  static const std::string kOfAll = next_of(kWaits);
+  static const std::string kOfIdle =
+      next_of(kWaits + " AND owner NOT IN (SELECT owner FROM jobs INDEXED BY jobs_by_lease WHERE " +
+              may(JobEvent::requeue) + ")");
+  Statement found = connection.query(owners == OwnersInTurn::all ? kOfAll : kOfIdle, last);
   if (!found.step()) {
     return std::nullopt;
   }
@@ -276,7 +284,8 @@ class SqliteStore final : public Store {
     });
   }
 
-  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) override {
+  using Store::claim;
+  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, OwnersInTurn owners) override {
     using Outcome = StatusOr<std::optional<Claim>>;
     static const std::string kSql =
         "UPDATE jobs SET " + becomes(JobEvent::claim) +
@@ -284,7 +293,7 @@ class SqliteStore final : public Store {
     return database_.write<std::optional<Claim>>(
         [&](Connection& connection) -> Outcome {
           std::int64_t row = 0;
-          std::optional<Claim> claim = next_in_turn(connection, last_owner_, row);
+          std::optional<Claim> claim = next_in_turn(connection, owners, last_owner_, row);
           if (!claim) {
             return claim;
           }

@@ -11,28 +11,35 @@
 
 namespace snapthrough::server::test {
 
-/// A request that takes a second and more to check for each 30 members: each curve has a table of its length.
-/// @param count number of members, of some 180 bytes each
-inline std::string costly_request(int count = 2000) {
+/// A request of 2 MB that takes some seconds to check: the lengths of splines through as many points as a
+/// document may have.
+inline std::string costly_request() {
   using nlohmann::json;
+  constexpr int kMembers = 32;
+  constexpr int kPoints = 10'000;  // of a spline, as many as there may be
   json request = json::parse(column_request());
+  json points = json::array();
+  for (int i = 0; i < kPoints; ++i) {
+    points.push_back({i % 2, 1});
+  }
   json nodes = json::array({{{"id", "n0"}, {"x", 0}, {"y", 0}}});
   json members = json::array();
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < kMembers; ++i) {
     const std::string end = "n" + std::to_string(i + 1);
     nodes.push_back({{"id", end}, {"x", i + 1}, {"y", 0}});
     members.push_back({{"id", "m" + std::to_string(i)},
                        {"start", "n" + std::to_string(i)},
                        {"end", end},
                        {"section", request["model"]["sections"][0]["id"]},
-                       {"curve", {{"type", "sine"}, {"rise", 0.01}, {"half_waves", 1000}}}});
+                       {"curve", {{"type", "points"}, {"points", points}}}});
   }
   request["model"] = {
       {"nodes", nodes},
       {"sections", request["model"]["sections"]},
       {"members", members},
       {"supports", {{{"node", "n0"}, {"fixed", {"x", "y", "rotation"}}}}},
-      {"loads", {{{"type", "point"}, {"at", {{"node", "n" + std::to_string(count)}}}, {"force", {-1, 0}}}}}};
+      {"loads",
+       {{{"type", "point"}, {"at", {{"node", "n" + std::to_string(kMembers)}}}, {"force", {-1, 0}}}}}};
   return request.dump();
 }
 
