@@ -161,6 +161,8 @@ class Judge:
             return [*wrong, f"{kind} is not published for {response.status}: {body[:200]!r}"], None
         if kind == "text/event-stream":
             return wrong + self.event_faults(operation, body), None
+        if kind == "application/x-ndjson":
+            return wrong + self.line_faults(body), None
         if not kind.endswith("json"):
             return wrong, None
         try:
@@ -169,6 +171,15 @@ class Judge:
             return [*wrong, f"the answer is no JSON: {problem}"], None
         self.validated += 1
         return wrong + self.schemas.faults(content[kind].get("schema", {}), answer)[:5], answer
+
+    def line_faults(self, body):
+        """Each line is a JSON object."""
+        try:
+            lines = [json.loads(line) for line in body.decode().splitlines()]
+        except ValueError as problem:
+            return [f"a line is no JSON: {problem}"]
+        self.validated += len(lines)
+        return [f"a line is no object: {line!r:.200}" for line in lines if not isinstance(line, dict)]
 
     def event_faults(self, operation, body):
         found, kinds = [], EVENTS[operation.path.split("/")[2]]
