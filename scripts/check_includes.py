@@ -83,7 +83,7 @@ def allowed(layer, quoted, name):
     if layer == "api":
         return name in API_STANDARD or is_json(name)
     if layer == "clients":
-        return name in API_STANDARD | {"chrono", "stddef.h", "stdint.h"} or is_json(name)
+        return name in API_STANDARD | {"chrono", "stddef.h", "stdint.h", "typeinfo"} or is_json(name)
     return not is_eigen(name)
 
 
