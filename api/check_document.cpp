@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "solver/mesh/given_elements.h"
 #include "solver/mesh/mesh.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/work_limit.h"
@@ -25,29 +24,13 @@ constexpr std::uint64_t kTimed = 10;
 /// of lists, so that a check of a large document costs little more than reading its first point.
 constexpr int kMostQuestions = 200;
 
-/// Elements of a mesh, and their order.
-struct MeshSize {
-  int elements = 0;
-  int order = 1;
-};
-
-/// Counts a given mesh without making it; one that the program chooses is made, since its size follows from
-/// the model.
-MeshSize mesh_size(const Model& model, const Discretization& asked) {
-  if (!asked.fixed_mesh) {
-    const Mesh mesh = make_mesh(model, asked, make_axes(model));
-    return {static_cast<int>(mesh.elements.size()), mesh.order};
-  }
-  return {static_cast<int>(given_elements(model, asked)), asked.order};
-}
-
 /// Returns the number of free displacement unknowns of the request's mesh, before any refinement.
 int unknowns_of(const Request& request) {
   const Model model = rods_as_springs(request.model);
   const MeshSize mesh = mesh_size(model, request.analysis.discretization);
   // A member of n elements of order p has n p - 1 inner nodes with three displacements each.
   int unknowns = 3 * static_cast<int>(model.nodes.size());
-  unknowns += 3 * (mesh.elements * mesh.order - static_cast<int>(model.members.size()));
+  unknowns += 3 * (static_cast<int>(mesh.elements) * mesh.order - static_cast<int>(model.members.size()));
   for (const Member& member : model.members) {
     unknowns += (member.release_start_rotation ? 1 : 0) + (member.release_end_rotation ? 1 : 0);
   }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "solver/mesh/given_elements.h"
+#include "solver/mesh/mesh.h"
 
 namespace snapthrough::server {
 namespace {
@@ -39,7 +39,7 @@ std::int64_t least_memory(const Model& model, const Analysis& analysis) {
   if (!mesh.fixed_mesh) {
     return 0;
   }
-  const std::int64_t elements = given_elements(model, mesh);
+  const std::int64_t elements = mesh_size(model, mesh).elements;
   // An element of order p adds p nodes with three unknowns each.
   const std::int64_t search = analysis.type == AnalysisType::buckling ? kLeastBytesOfSearch : 0;
   return 3 * elements * mesh.order * (kLeastBytesByUnknown + search);

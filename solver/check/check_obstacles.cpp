@@ -121,23 +121,22 @@ void check_support_at(const Place& root, const Model& model, std::size_t index, 
 void check_obstacles(const Place& root, const Model& model, const Analysis& analysis) {
   const auto is_rigid = [](const Foundation& one) { return !one.law && std::isinf(one.stiffness); };
   if (model.supports.empty() || std::ranges::none_of(model.foundations, is_rigid)) return;
-  const Axes axes = make_axes(model);
+  const IdIndex nodes(model.nodes);
+  const IdIndex members(model.members);
   const std::array origin{model.nodes.front().x, model.nodes.front().y};
   const std::vector<double> factors = wanted_factors(analysis);
   const bool is_linear = analysis.geometry == Geometry::linear || analysis.type == AnalysisType::buckling;
   for (const Foundation& obstacle : model.foundations) {
     if (!is_rigid(obstacle)) continue;
-    const auto m = static_cast<std::size_t>(index_of(model.members, obstacle.member));
-    const double length = axes[m]->length();
+    const Member& member = model.members[static_cast<std::size_t>(members.of(obstacle.member))];
+    const AxisCurve axis = axis_of(model, nodes, member);
+    const double length = axis.length();
     for (const double fraction : obstacle.range) {
       if (fraction != 0.0 && fraction != 1.0) continue;
-      const AxisPoint at = axes[m]->at(fraction * length);
-      const ObstacleEnd end{obstacle,
-                            fraction == 0.0 ? model.members[m].start : model.members[m].end,
-                            {{at.x, at.y}, at.angle, fraction},
-                            length,
-                            law_of(obstacle, Scales{}, origin),
-                            is_linear};
+      const AxisPoint at = axis.at(fraction * length);
+      const ObstacleEnd end{
+          obstacle, fraction == 0.0 ? member.start : member.end, {{at.x, at.y}, at.angle, fraction},
+          length,   law_of(obstacle, Scales{}, origin),          is_linear};
       for (std::size_t i = 0; i < model.supports.size(); ++i) check_support_at(root, model, i, end, factors);
     }
   }

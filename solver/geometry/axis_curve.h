@@ -3,6 +3,7 @@
 /// Initial axis of a member as a function of arc length.
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -45,11 +46,26 @@ class AxisCurve {
   struct Jet {
     double x, y, dx, dy, ddx, ddy;
   };
+  /// Arc length from the start of the wave that a point lies in.
+  struct InWave {
+    int wave;
+    double s;
+  };
+  /// Row of the tables at or before a point of the first wave, and the point's parameter.
+  struct Location {
+    std::size_t row;
+    double t;
+  };
   static double speed_of(const Jet& j);
-  void set_parametric(std::function<Jet(double)> jet, int intervals);
+  /// @param pieces ends of the parts of one wave on which the curve is smooth, ascending from 0
+  /// @param rows rows of the table for each piece
+  void set_parametric(std::function<Jet(double)> jet, std::vector<double> pieces, int rows);
+  void set_sine(const SineCurve& sine, std::array<double, 2> start, std::array<double, 2> end);
   void set_spline(const PointsCurve& curve, std::array<double, 2> start, std::array<double, 2> end);
-  [[nodiscard]] double parameter_at(double s) const;
-  [[nodiscard]] double length_to(double t) const;
+  [[nodiscard]] double parameter_of(std::size_t row) const;
+  [[nodiscard]] InWave in_wave(double s) const;
+  [[nodiscard]] Location locate(double s) const;
+  [[nodiscard]] double turning_in_wave(double from, double to) const;
 
   double length_ = 0.0;
   bool straight_ = false;
@@ -57,8 +73,12 @@ class AxisCurve {
   std::array<double, 2> start_{};
   double start_angle_ = 0.0;
   double curvature_ = 0.0;
-  // other curves: parametric jet, with tables of arc length and angle at equal parameter intervals
+  // other curves: parametric jet, with tables over one wave, which repeats with a period of the parameter. Of
+  // odd waves the angles to the chord have the other sign.
   std::function<Jet(double)> jet_;
+  int waves_ = 1;
+  std::vector<double> pieces_;
+  std::size_t rows_ = 1;  ///< for each piece
   std::vector<double> table_s_;
   std::vector<double> table_angle_;
   std::vector<double> table_speed_;  ///< ds/dt at the parameters of the table

@@ -5,77 +5,17 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <string>
-#include <variant>
+#include <string_view>
+#include <unordered_map>
 
+#include "solver/mesh/member_actions.h"
 #include "solver/model/id_index.h"
 #include "solver/numeric/rounding.h"
+#include "solver/numeric/work_limit.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
 namespace {
-
-/// Adds the fractions inside a range at which a number of a law bends.
-void add_breaks(const ReactionLaw& law, std::array<double, 2> range, std::vector<double>& at) {
-  for (const AlongMember* value : {&law.stiffness, &law.capacity, &law.factor})
-    for (const auto& [fraction, unused] : value->points)
-      if (fraction > range[0] && fraction < range[1]) at.push_back(fraction);
-}
-
-/// Fractions at which elements must end, ascending, with 0 and 1.
-std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& axis) {
-  const std::string& id = model.members[member].id;
-  std::vector<double> at{0.0, 1.0};
-  const auto add_location = [&](const Location& location) {
-    if (location.member == id) at.push_back(location.fraction);
-  };
-  const auto add_kinks = [&at](const auto& along) {
-    for (const auto& point : along) at.push_back(point.first);
-  };
-  for (const Spring& spring : model.springs) add_location(spring.at);
-  for (const PointMass& mass : model.masses) add_location(mass.at);
-  for (const Foundation& foundation : model.foundations) {
-    if (foundation.member != id) continue;
-    at.insert(at.end(), foundation.range.begin(), foundation.range.end());
-    if (foundation.law) add_breaks(*foundation.law, foundation.range, at);
-    for (const auto& [fraction, gap] : foundation.gap_along)
-      if (fraction > foundation.range[0] && fraction < foundation.range[1]) at.push_back(fraction);
-    if (!foundation.displacement) continue;
-    add_kinks(foundation.displacement->x.points);
-    add_kinks(foundation.displacement->y.points);
-  }
-  for (const Load& load : model.loads) {
-    if (const auto* point = std::get_if<PointLoad>(&load)) add_location(point->at);
-    const auto* distributed = std::get_if<DistributedLoad>(&load);
-    if (distributed != nullptr && distributed->member == id) {
-      at.insert(at.end(), distributed->range.begin(), distributed->range.end());
-      add_kinks(distributed->force_along);
-    }
-    const auto* pressure = std::get_if<PressureLoad>(&load);
-    if (pressure != nullptr && pressure->member == id) add_kinks(pressure->value_along);
-    const auto* strain = std::get_if<InitialStrain>(&load);
-    if (strain != nullptr && strain->member == id) {
-      add_kinks(strain->axial_along);
-      add_kinks(strain->curvature_along);
-    }
-    const auto* temperature = std::get_if<TemperatureLoad>(&load);
-    if (temperature != nullptr && temperature->member == id) {
-      add_kinks(temperature->change_along);
-      add_kinks(temperature->gradient_along);
-    }
-  }
-  const Section& section = model.sections[index_of(model.sections, model.members[member].section)];
-  for (const AlongMember* value : {&section.EA, &section.EI}) add_kinks(value->points);
-  for (const auto* value : {&section.GA, &section.mass, &section.rotary_inertia})
-    if (*value) add_kinks((*value)->points);
-  for (const double knot : axis.knots()) at.push_back(knot / axis.length());
-  std::sort(at.begin(), at.end());
-  std::vector<double> unique;
-  for (const double fraction : at)
-    if (unique.empty() || fraction - unique.back() > kOnePlace) unique.push_back(fraction);
-  unique.back() = 1.0;
-  return unique;
-}
 
 /// Distributes n elements over the pieces by largest element length, at least one each.
 std::vector<int> share(int n, const std::vector<double>& breaks) {
@@ -98,11 +38,20 @@ std::vector<int> share(int n, const std::vector<double>& breaks) {
   return counts;
 }
 
-int fixed_count(const Discretization& d, const std::string& member) {
-  for (const auto& [id, n] : d.member_elements)
-    if (id == member) return n;
-  return std::max(1, d.elements);
-}
+/// Numbers of elements that a request gives to members.
+class GivenCounts {
+ public:
+  explicit GivenCounts(const Discretization& given)
+      : of_members_(given.member_elements.begin(), given.member_elements.end()), others_(given.elements) {}
+  [[nodiscard]] int of(const Member& member) const {
+    const auto found = of_members_.find(member.id);
+    return found == of_members_.end() ? std::max(1, others_) : found->second;
+  }
+
+ private:
+  std::unordered_map<std::string_view, int> of_members_;
+  int others_;
+};
 
 /// Constants of the rule of make_mesh().
 struct ChosenMesh {
@@ -129,47 +78,59 @@ struct MeshRules {
   static constexpr double layer_width = 1e-6;
 };
 
-/// Intervals of the spline through the offsets and the ends of the member.
-double intervals_of(const PointsImperfection& points) {
-  const int ends = (points.offsets.front()[0] > 0.0 ? 1 : 0) + (points.offsets.back()[0] < 1.0 ? 1 : 0);
-  return static_cast<double>(points.offsets.size()) - 1.0 + ends;
-}
+/// Rule of make_mesh() for meshes that no request gives.
+class MeshChoice {
+ public:
+  MeshChoice(const Discretization& discretization, MeshUse use)
+      : rule_(use == MeshUse::first  ? MeshRules::first
+              : use == MeshUse::path ? MeshRules::path
+                                     : MeshRules::final) {
+    const double enough = std::cbrt(1.0 / discretization.accuracy);
+    const bool is_soft = is_checked(use) && !discretization.full_stiffness;
+    finest_ = {is_soft ? enough : std::numeric_limits<double>::infinity(), enough};
+  }
+  /// Whether a mesh of this use is checked on finer ones.
+  static bool is_checked(MeshUse use) { return use != MeshUse::final; }
+  [[nodiscard]] const ChosenMesh& rule() const { return rule_; }
 
-/// Number of elements of a piece of a member, by the rule of make_mesh().
-/// @param finest bounds for one-sided and for rigid foundations, as multiples of the number for the axis
-int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
-                  double to, std::array<double, 2> finest) {
-  const Member& m = model.members[member];
-  const double length = (to - from) * axis.length();
-  const double turn = axis.turning(from * axis.length(), to * axis.length());
-  const double turns = turn / (rule.turn * std::numbers::pi / 180.0);
-  const double coarse = std::max(MeshRules::first.least * (to - from), turns);
-  double n = std::max(rule.least * (to - from), turns);
-  const AlongMember& EI = model.sections[index_of(model.sections, m.section)].EI;
-  const double least_EI = std::min(EI.at(from), EI.at(to));
-  for (const Foundation& foundation : model.foundations) {
-    if (foundation.member != m.id || initial_stiffness(foundation) <= 0.0 || foundation.range[1] <= from ||
-        foundation.range[0] >= to)
-      continue;
-    const double stiffness = initial_stiffness(foundation);
-    if (!std::isfinite(stiffness)) {
-      n = std::max(n, finest[1] * coarse);
-      continue;
+  /// Numbers of elements of the pieces of a member.
+  [[nodiscard]] std::vector<int> counts(const MemberActions& actions, const AxisCurve& axis,
+                                        const std::vector<double>& breaks) const {
+    std::vector<int> out;
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+      out.push_back(count(actions, axis, breaks[i], breaks[i + 1]));
+    return out;
+  }
+
+ private:
+  [[nodiscard]] int count(const MemberActions& actions, const AxisCurve& axis, double from, double to) const {
+    const double length = (to - from) * axis.length();
+    const double turn = axis.turning(from * axis.length(), to * axis.length());
+    const double turns = turn / (rule_.turn * std::numbers::pi / 180.0);
+    const double coarse = std::max(MeshRules::first.least * (to - from), turns);
+    double n = std::max(rule_.least * (to - from), turns);
+    const AlongMember& EI = actions.section->EI;
+    const double least_EI = std::min(EI.at(from), EI.at(to));
+    for (const Foundation* foundation : actions.foundations) {
+      const double stiffness = initial_stiffness(*foundation);
+      if (stiffness <= 0.0 || foundation->range[1] <= from || foundation->range[0] >= to) continue;
+      if (!std::isfinite(stiffness)) {
+        n = std::max(n, finest_[1] * coarse);
+        continue;
+      }
+      const double layers = length / (rule_.decay_lengths * std::pow(4.0 * least_EI / stiffness, 0.25));
+      const bool is_bounded = is_one_sided(*foundation) && !foundation->direction && !foundation->law;
+      n = std::max(n, is_bounded ? std::min(layers, finest_[0] * coarse) : layers);
     }
-    const double layers = length / (rule.decay_lengths * std::pow(4.0 * least_EI / stiffness, 0.25));
-    const bool is_bounded = is_one_sided(foundation) && !foundation.direction && !foundation.law;
-    n = std::max(n, is_bounded ? std::min(layers, finest[0] * coarse) : layers);
+    n = std::max(n, actions.imperfection_elements * (to - from));
+    const int count = std::max(1, static_cast<int>(std::ceil(std::min(n, MeshRules::elements) - 1e-9)));
+    return rule_.odd && count % 2 == 0 ? count + 1 : count;
   }
-  for (const Imperfection& imperfection : model.imperfections) {
-    const auto* sine = std::get_if<SineImperfection>(&imperfection);
-    if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
-    // A mesh coarser than the intervals has another imperfection, and its path may turn to the other side.
-    const auto* points = std::get_if<PointsImperfection>(&imperfection);
-    if (points != nullptr && points->member == m.id) n = std::max(n, intervals_of(*points) * (to - from));
-  }
-  const int count = std::max(1, static_cast<int>(std::ceil(std::min(n, MeshRules::elements) - 1e-9)));
-  return rule.odd && count % 2 == 0 ? count + 1 : count;
-}
+
+  const ChosenMesh& rule_;
+  /// Bounds for one-sided and for rigid foundations, as multiples of the number for the axis.
+  std::array<double, 2> finest_{};
+};
 
 void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, const std::vector<int>& counts) {
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
@@ -213,34 +174,49 @@ std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> 
 }
 
 Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
-  const ChosenMesh& rule = use == MeshUse::first  ? MeshRules::first
-                           : use == MeshUse::path ? MeshRules::path
-                                                  : MeshRules::final;
+  const MeshChoice choice(discretization, use);
+  const GivenCounts given(discretization);
+  const std::vector<MemberActions> actions = actions_on_members(model);
+  const bool is_given = discretization.fixed_mesh;
   Mesh mesh;
-  mesh.order = discretization.fixed_mesh ? discretization.order : rule.order;
-  mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;
-  const bool is_checked = !discretization.fixed_mesh && use != MeshUse::final;
-  if (is_checked) mesh.decay_lengths = rule.decay_lengths;
-  const double enough = std::cbrt(1.0 / discretization.accuracy);
-  const bool is_soft = is_checked && !discretization.full_stiffness;
-  const std::array finest{is_soft ? enough : std::numeric_limits<double>::infinity(), enough};
+  mesh.order = is_given ? discretization.order : choice.rule().order;
+  mesh.foundation = is_given ? discretization.foundation : FoundationRule::consistent;
+  if (!is_given && MeshChoice::is_checked(use)) mesh.decay_lengths = choice.rule().decay_lengths;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const int member = static_cast<int>(m);
     mesh.first.push_back(static_cast<int>(mesh.elements.size()));
-    std::vector<double> breaks = breaks_of(model, member, *axes[m]);
+    std::vector<double> breaks = breaks_of(actions[m], *axes[m]);
     std::vector<int> counts;
-    if (discretization.fixed_mesh) {
-      const int n = fixed_count(discretization, model.members[m].id);
+    if (is_given) {
+      const int n = given.of(model.members[m]);
       if (n < static_cast<int>(breaks.size()) - 1) breaks = {0.0, 1.0};
       counts = share(n, breaks);
     } else {
-      for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
-        counts.push_back(default_count(rule, model, member, *axes[m], breaks[i], breaks[i + 1], finest));
+      counts = choice.counts(actions[m], *axes[m], breaks);
     }
-    add_elements(mesh, member, breaks, counts);
+    add_elements(mesh, static_cast<int>(m), breaks, counts);
   }
   mesh.first.push_back(static_cast<int>(mesh.elements.size()));
   return mesh;
+}
+
+MeshSize mesh_size(const Model& model, const Discretization& discretization, MeshUse use) {
+  if (discretization.fixed_mesh) {
+    const GivenCounts given(discretization);
+    MeshSize size{0, discretization.order};
+    for (const Member& member : model.members) size.elements += given.of(member);
+    return size;
+  }
+  const MeshChoice choice(discretization, use);
+  const std::vector<MemberActions> actions = actions_on_members(model);
+  const IdIndex nodes(model.nodes);
+  MeshSize size{0, choice.rule().order};
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    WorkLimit::poll();
+    const AxisCurve axis = axis_of(model, nodes, model.members[m]);
+    for (const int count : choice.counts(actions[m], axis, breaks_of(actions[m], axis)))
+      size.elements += count;
+  }
+  return size;
 }
 
 std::optional<Mesh> finer_mesh(const Mesh& mesh) {
@@ -262,9 +238,11 @@ std::optional<Mesh> finer_mesh(const Mesh& mesh) {
 Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Model& moved,
                 const Axes& moved_axes) {
   Mesh out = mesh;
+  const std::vector<MemberActions> actions = actions_on_members(model);
+  const std::vector<MemberActions> moved_actions = actions_on_members(moved);
   for (std::size_t m = 0; m < axes.size(); ++m) {
-    const std::vector<double> from = breaks_of(model, static_cast<int>(m), *axes[m]);
-    const std::vector<double> to = breaks_of(moved, static_cast<int>(m), *moved_axes[m]);
+    const std::vector<double> from = breaks_of(actions[m], *axes[m]);
+    const std::vector<double> to = breaks_of(moved_actions[m], *moved_axes[m]);
     const auto first = mesh.elements.begin() + mesh.first[m];
     const auto last = mesh.elements.begin() + mesh.first[m + 1];
     const auto is_end = [&](double at) {
@@ -291,8 +269,9 @@ Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Mo
 Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const std::vector<double>& decays) {
   Mesh out = mesh;
   out.elements.clear();
+  const std::vector<MemberActions> actions = actions_on_members(model);
   for (std::size_t m = 0; m < axes.size(); ++m) {
-    const std::vector<double> breaks = breaks_of(model, static_cast<int>(m), *axes[m]);
+    const std::vector<double> breaks = breaks_of(actions[m], *axes[m]);
     const auto is_break = [&breaks](double at) {
       return std::any_of(breaks.begin(), breaks.end(),
                          [at](double b) { return std::abs(at - b) <= kOnePlace; });

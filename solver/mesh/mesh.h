@@ -64,6 +64,18 @@ enum class MeshUse {
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
 
+/// Number of a mesh's elements, and their order.
+struct MeshSize {
+  long long elements = 0;
+  int order = 1;
+};
+
+/// @brief Size of the mesh that make_mesh() would make, counted member by member without making it: its
+/// memory is that of one member's axis.
+/// @pre check() found nothing
+[[nodiscard]] MeshSize mesh_size(const Model& model, const Discretization& discretization,
+                                 MeshUse use = MeshUse::final);
+
 /// Discretization with which make_mesh() keeps the full stiffness of every foundation.
 [[nodiscard]] inline Discretization as_stiff_as_given(Discretization discretization) {
   discretization.full_stiffness = true;

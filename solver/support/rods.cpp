@@ -11,13 +11,25 @@
 namespace snapthrough {
 namespace {
 
+/// Accelerations of all self weights of a pattern together; zero: none.
+std::array<double, 2> gravity_of(const Model& model, Pattern pattern) {
+  std::array<double, 2> sum{0.0, 0.0};
+  for (const Load& load : model.loads) {
+    const auto* weight = std::get_if<SelfWeight>(&load);
+    if (weight == nullptr || weight->pattern != pattern) continue;
+    sum[0] += weight->gravity[0];
+    sum[1] += weight->gravity[1];
+  }
+  return sum;
+}
+
 /// Adds half the weight of a rod at each of its nodes.
-void add_weight(const Member& rod, double mass, const SelfWeight& weight, std::vector<Load>& out) {
+void add_weight(const Member& rod, double mass, const std::array<double, 2>& gravity, Pattern pattern,
+                std::vector<Load>& out) {
+  if (gravity == std::array{0.0, 0.0}) return;
   for (const std::string& node : {rod.start, rod.end})
-    out.emplace_back(PointLoad{{node, "", 0.0},
-                               {0.5 * mass * weight.gravity[0], 0.5 * mass * weight.gravity[1]},
-                               0.0,
-                               weight.pattern});
+    out.emplace_back(
+        PointLoad{{node, "", 0.0}, {0.5 * mass * gravity[0], 0.5 * mass * gravity[1]}, 0.0, pattern});
 }
 
 /// Mean of a function of a number along a member, to rounding for sections that taper to a tenth.
@@ -38,11 +50,9 @@ double mean_of(const AlongMember& number, const Function& function) {
   return sum;
 }
 
-Spring spring_of(const Model& model, std::size_t index) {
-  const Member& rod = model.members[index];
-  const Node& a = model.nodes[index_of(model.nodes, rod.start)];
-  const Node& b = model.nodes[index_of(model.nodes, rod.end)];
-  const AlongMember& given = model.sections[index_of(model.sections, rod.section)].EA;
+/// Spring that acts as a rod, which is number `index` of the model's members.
+Spring spring_of(const Member& rod, std::size_t index, const Node& a, const Node& b,
+                 const AlongMember& given) {
   const double EA =
       given.varies() ? 1.0 / mean_of(given, [](double value) { return 1.0 / value; }) : given.constant;
   Spring out;
@@ -62,15 +72,23 @@ std::optional<Model> with_rods_as_springs(const Model& model) {
   if (std::none_of(model.members.begin(), model.members.end(), is_rod)) return std::nullopt;
   Model out = model;
   std::vector<Load> weights;
+  const IdIndex nodes(model.nodes);
+  const IdIndex sections(model.sections);
+  const auto node = [&](const std::string& id) -> const Node& {
+    return model.nodes[static_cast<std::size_t>(nodes.of(id))];
+  };
+  const std::array constant = gravity_of(model, Pattern::constant);
+  const std::array proportional = gravity_of(model, Pattern::proportional);
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    if (!is_rod(model.members[m])) continue;
-    const Spring& spring = out.springs.emplace_back(spring_of(model, m));
+    const Member& rod = model.members[m];
+    if (!is_rod(rod)) continue;
+    const Section& section = model.sections[static_cast<std::size_t>(sections.of(rod.section))];
+    const Spring& spring =
+        out.springs.emplace_back(spring_of(rod, m, node(rod.start), node(rod.end), section.EA));
     const double length = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
-    const Section& section = model.sections[index_of(model.sections, model.members[m].section)];
-    const double mass = mean_of(section.mass.value_or(0.0), [](double value) { return value; });
-    for (const Load& load : model.loads)
-      if (const auto* weight = std::get_if<SelfWeight>(&load))
-        add_weight(model.members[m], mass * length, *weight, weights);
+    const double mass = length * mean_of(section.mass.value_or(0.0), [](double value) { return value; });
+    add_weight(rod, mass, constant, Pattern::constant, weights);
+    add_weight(rod, mass, proportional, Pattern::proportional, weights);
   }
   std::erase_if(out.members, is_rod);
   // the loads of load cases stand last

@@ -64,6 +64,47 @@ TEST(AxisCurve, HasItsArcLengthAsParameter) {
   }
 }
 
+/// A sine of n half-waves is n times the one half-wave, mirrored at the chord each time.
+TEST(AxisCurve, OfASineRepeatsItsFirstHalfWave) {
+  const int half_waves = 5;
+  const double chord = 2.0;
+  const AxisCurve whole(SineCurve{0.7, half_waves}, {0.0, 0.0}, {chord * half_waves, 0.0});
+  const AxisCurve wave(SineCurve{0.7, 1}, {0.0, 0.0}, {chord, 0.0});
+  EXPECT_NEAR(whole.length(), half_waves * wave.length(), 1e-13 * whole.length());
+  for (int k = 0; k < half_waves; ++k) {
+    const double side = k % 2 == 0 ? 1.0 : -1.0;
+    for (const double part : {0.0, 0.01, 0.3, 0.5, 0.77, 1.0}) {
+      const AxisPoint here = whole.at((k + part) * wave.length());
+      const AxisPoint there = wave.at(part * wave.length());
+      EXPECT_NEAR(here.x, k * chord + there.x, 1e-12) << k << ' ' << part;
+      EXPECT_NEAR(here.y, side * there.y, 1e-12) << k << ' ' << part;
+      EXPECT_NEAR(here.angle, side * there.angle, 1e-12) << k << ' ' << part;
+      EXPECT_NEAR(here.curvature, side * there.curvature, 1e-11) << k << ' ' << part;
+    }
+    const double from = 0.3 * wave.length();
+    EXPECT_NEAR(whole.turning(from, from + k * wave.length()), k * wave.turning(0.0, wave.length()), 1e-12)
+        << k;
+  }
+}
+
+/// A spline through points of a circle at equal angles tends to the circle with the fourth power of the
+/// angle.
+TEST(AxisCurve, OfASplineTendsToItsCircle) {
+  const int pieces = 200;
+  PointsCurve points;
+  for (int i = 1; i < pieces; ++i) {
+    const double angle = std::numbers::pi * (1.0 - static_cast<double>(i) / pieces);
+    points.points.push_back({std::cos(angle), std::sin(angle)});
+  }
+  const AxisCurve spline(points, {-1.0, 0.0}, {1.0, 0.0});
+  EXPECT_NEAR(spline.length(), std::numbers::pi, 1e-8);
+  EXPECT_NEAR(spline.turning(0.0, spline.length()), std::numbers::pi, 1e-4);
+  EXPECT_NEAR(spline.turning(0.25 * spline.length(), 0.5 * spline.length()), 0.25 * std::numbers::pi, 1e-6);
+  ASSERT_EQ(spline.knots().size(), pieces - 3U);
+  EXPECT_NEAR(spline.knots().front(), 2.0 * std::numbers::pi / pieces, 1e-8);
+  EXPECT_NEAR(spline.at(0.3).curvature, -1.0, 1e-3);
+}
+
 /// y = 4 r x (1 - x): the length of a parabola of rise r over a chord of one is a closed form.
 TEST(AxisCurve, OfAParabolaHasItsClosedFormLength) {
   for (const double rise : {0.01, 0.3, 2.0}) {

@@ -56,6 +56,21 @@ Model crowded() {
   return model;
 }
 
+TEST(Mesh, IsCountedWithoutBeingMade) {
+  Model model = crowded();
+  model.members[0].curve = PointsCurve{{{0.3, 0.1}, {0.7, -0.1}}};
+  model.imperfections = {SineImperfection{"column", 20, 0.01}};
+  Discretization chosen;
+  for (const Discretization& asked : {chosen, fixed_mesh(3, 2), fixed_mesh(70, 1)}) {
+    for (const MeshUse use : {MeshUse::final, MeshUse::path, MeshUse::first}) {
+      const Mesh mesh = mesh_of(model, asked, use);
+      const MeshSize size = mesh_size(model, asked, use);
+      EXPECT_EQ(size.elements, static_cast<long long>(mesh.elements.size()));
+      EXPECT_EQ(size.order, mesh.order);
+    }
+  }
+}
+
 TEST(Mesh, HasElementsEndWhereSomethingActs) {
   for (const MeshUse use : {MeshUse::final, MeshUse::path, MeshUse::first}) {
     const auto ends = ends_of(mesh_of(crowded(), {}, use), 0);
