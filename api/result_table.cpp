@@ -399,9 +399,9 @@ void PointsTable::append_row(const Branch& branch, std::size_t point, std::strin
       append(csv, values[point]);
     }
   });
-  for (const auto& [field, id] : by_id_) {
+  for (const auto& [name, of_id] : by_id_) {
     csv += ',';
-    for_each_column_by_id<Branch>([&, &field = field, &id = id](const auto& one) {
+    for_each_column_by_id<Branch>([&, &field = name, &id = of_id](const auto& one) {
       if (one.name == field) {
         append_value(csv, std::invoke(one.get, branch), id, point);
       }

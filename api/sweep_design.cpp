@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 #include "api/sweep_data.h"
 
@@ -102,7 +103,7 @@ std::vector<Coordinate> coordinates(const SweepData& data, std::uint64_t point) 
 Json value_at(const SweepData& data, std::size_t parameter, const Coordinate& at) {
   const SweepParameter& of = data.parameters[parameter];
   if (!of.range) {
-    return of.values[at.entry];
+    return of.values[static_cast<std::size_t>(at.entry)];
   }
   return data.design == SweepDesign::latin_hypercube ? in_range(*of.range, at.place)
                                                      : listed_value(*of.range, at.entry);
@@ -122,7 +123,8 @@ std::vector<Json> design_labels(const SweepData& data, std::uint64_t point) {
   std::vector<Json> shown;
   for (const Coordinate& at : coordinates(data, point)) {
     const std::vector<std::string>& labels = data.parameters[shown.size()].labels;
-    shown.push_back(labels.empty() ? value_at(data, shown.size(), at) : Json(labels[at.entry]));
+    shown.push_back(labels.empty() ? value_at(data, shown.size(), at)
+                                   : Json(labels[static_cast<std::size_t>(at.entry)]));
   }
   return shown;
 }

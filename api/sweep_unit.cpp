@@ -1,6 +1,7 @@
 #include "api/sweep_unit.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <new>
@@ -168,7 +169,7 @@ void follow_locus(const Sweep& sweep, const CurveRows& rows, std::function<Model
 }
 
 std::vector<PointOutcome> followed(const Sweep& sweep, std::uint64_t first, const std::stop_token& stop) {
-  std::vector<PointOutcome> outcomes(sweep.unit_size());
+  std::vector<PointOutcome> outcomes(static_cast<std::size_t>(sweep.unit_size()));
   const CurveRows rows = curve_rows(sweep, first, outcomes);
   const SweepFollow& which = sweep.data().followed;
   const auto model = [&sweep, first](double value) { return model_between(sweep, first, value); };

@@ -72,6 +72,11 @@ bash scripts/web_test.sh "build/$preset/snapthrough"
 step "Python client"
 bash scripts/clients_python_test.sh "build/$preset"
 
+step "WebAssembly, in Node"
+if [ "$preset" = release ]; then
+  bash scripts/wasm.sh
+fi
+
 step "commands of the documents, and the script of the theory"
 python3 scripts/check_code_blocks.py "build/$preset/snapthrough"
 /usr/bin/python3 docs/theory/shallow_arch.py

@@ -18,6 +18,9 @@ PAGE_PACKAGES=(chromium fonts-dejavu-core)
 # What scripts/report.sh and scripts/bench.sh need besides, to draw plots (fonts for what their labels measure).
 REPORT_PACKAGES=(python3 gnuplot-nox fonts-dejavu-core)
 
+# What scripts/wasm.sh needs, beside BUILD_PACKAGES and nodejs.
+WASM_PACKAGES=(clang-19 lld-19 llvm-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc)
+
 # missing_packages NAME...: prints those that are not installed, one a line.
 missing_packages() {
   local name

@@ -56,7 +56,7 @@ class WorkerPool {
   RunnerFactory make_;
   /// Time of the monotonic clock at which each worker began its present work; infinite: it waits for some.
   std::vector<std::atomic<double>> begun_;
-  /// Of all threads: none takes what another gives back when the pool stops.
+  /// One for all threads: none takes what another gives back when the pool stops.
   std::stop_source stop_;
   std::vector<std::jthread> threads_;
 };

@@ -1,0 +1,60 @@
+/// @file
+/// Functions of the WebAssembly module: those of the C interface (clients/c/snapthrough.h), whose progress the
+/// host is told by a function that the module imports.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "clients/c/snapthrough.h"
+
+extern "C" {
+/// Imported. Whether the call shall stop, 0: no.
+__attribute__((import_module("snapthrough"), import_name("progress"))) int snapthrough_wasm_progress(
+    double done, double total, double load_factor, int branch, int negative_eigenvalues);
+}
+
+namespace {
+
+int tell(const snapthrough_progress* now, void* /*unused*/) {
+  return snapthrough_wasm_progress(static_cast<double>(now->done), static_cast<double>(now->total),
+                                   now->load_factor, now->branch, now->negative_eigenvalues);
+}
+
+}  // namespace
+
+#define EXPORTED(name) __attribute__((export_name(name)))
+
+extern "C" {
+
+/// @param watched not 0: the host is told the progress
+EXPORTED("solve")
+snapthrough_document* snapthrough_wasm_solve(const char* request, std::size_t length, int watched) {
+  return snapthrough_solve(request, length, nullptr, watched != 0 ? tell : nullptr, nullptr);
+}
+
+EXPORTED("check")
+snapthrough_document* snapthrough_wasm_check(const char* document, std::size_t length) {
+  return snapthrough_check(document, length);
+}
+
+/// Counts of points are whole numbers below 2^53. @param watched as above
+EXPORTED("sweep")
+snapthrough_document* snapthrough_wasm_sweep(const char* document, std::size_t length, double first, double count,
+                                             int watched) {
+  return snapthrough_sweep(document, length, static_cast<std::uint64_t>(first),
+                           static_cast<std::uint64_t>(count), nullptr, watched != 0 ? tell : nullptr, nullptr);
+}
+
+/// @param choices options, empty for none
+EXPORTED("plot")
+snapthrough_document* snapthrough_wasm_plot(const char* document, std::size_t length, const char* choices,
+                                            std::size_t choices_length) {
+  return snapthrough_plot(document, length, choices_length != 0 ? choices : nullptr, choices_length);
+}
+
+EXPORTED("release")
+void snapthrough_wasm_release(snapthrough_document* document) { snapthrough_free(document); }
+
+EXPORTED("version")
+const char* snapthrough_wasm_version() { return snapthrough_version(); }
+}
