@@ -41,6 +41,8 @@ void check_store(const ServiceConfig& config, const Require& require) {
 template <class Require>
 void check_sizes(const JobLimits& jobs, const Require& require) {
   require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
+  require(jobs.spare_workers >= 0 && jobs.spare_workers <= kMostWorkers, "jobs.spare_workers",
+          "must be 0 to 1024");
   require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");
   require(jobs.sweep_points >= 1 && static_cast<std::uint64_t>(jobs.sweep_points) <= api::kMaxSweepPoints,
           "jobs.sweep_points", "must be 1 to 1000000");

@@ -218,6 +218,10 @@ std::vector<Setting> job_settings() {
             [](ServiceConfig& c) -> int& { return c.store_connections; }),
       whole("workers", "Analyses at the same time; 0: other processes that share the store work",
             [](ServiceConfig& c) -> int& { return c.workers; }),
+      whole("spare_workers",
+            "Most analyses beside those of the workers: for owners for whom nothing runs while all workers "
+            "are held",
+            [](ServiceConfig& c) -> int& { return c.jobs.spare_workers; }),
       whole("max_queue", "Jobs that may wait; the next is refused with 429",
             [](ServiceConfig& c) -> int& { return c.jobs.queue; }),
       whole("max_sweeps", "Sweeps that may be unfinished; the next is refused with 429",

@@ -22,8 +22,6 @@ constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kLongestSharedNap{10.0};
 /// Begin of the work of a worker that has none.
 constexpr double kWaits = std::numeric_limits<double>::infinity();
-/// Number of times that the spare worker looks for work during JobLimits::spare_after.
-constexpr int kSpareLooks = 5;
 /// Pause before another attempt to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
 
@@ -239,12 +237,12 @@ void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runne
 WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory make)
     : context_(context), make_(std::move(make)), begun_(static_cast<std::size_t>(threads)) {
   std::fill(begun_.begin(), begun_.end(), kWaits);
-  threads_.reserve(begun_.size() + 1);
+  threads_.reserve(begun_.size() + static_cast<std::size_t>(context_.limits.spare_workers));
   try {
     for (std::size_t i = 0; i < begun_.size(); ++i) {
       threads_.emplace_back([this, i] { run(i, stop_.get_token()); });
     }
-    if (threads > 0) {
+    for (int i = 0; threads > 0 && i < context_.limits.spare_workers; ++i) {
       threads_.emplace_back([this] { run_spare(stop_.get_token()); });
     }
   } catch (...) {
@@ -278,21 +276,27 @@ bool WorkerPool::are_held() const {
   return std::all_of(begun_.begin(), begun_.end(), [&](const auto& begun) { return begun < before; });
 }
 
-void WorkerPool::run_spare(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    pause(stop, context_.limits.spare_after / kSpareLooks);
-    if (are_held() && (context_.waiting.value() > 0 || context_.sweeps.is_left())) {
-      work_for_idle_owners(stop);
-    }
+bool WorkerPool::is_left() const { return context_.waiting.value() > 0 || context_.sweeps.is_left(); }
+
+/// Waits until there is work, and until workers have had the time that short work takes.
+void WorkerPool::wait_as_spare(std::uint64_t& seen, const std::stop_token& stop) {
+  const std::lock_guard duty(on_duty_);
+  if (!is_left()) {
+    context_.handoffs.wait_as_spare(seen, stop, kLongestNap);
   }
+  pause(stop, context_.limits.spare_after);
 }
 
-void WorkerPool::work_for_idle_owners(const std::stop_token& stop) {
+void WorkerPool::run_spare(const std::stop_token& stop) {
   RunnerOnDemand runner(make_);
-  bool worked = true;
-  while (worked && are_held() && !stop.stop_requested()) {
-    worked = claim_and_work(runner, stop, OwnersInTurn::idle);
-    worked = context_.sweeps.do_next(runner, stop, OwnersInTurn::idle) || worked;
+  std::uint64_t seen = 0;
+  while (!stop.stop_requested()) {
+    wait_as_spare(seen, stop);
+    bool worked = true;
+    while (worked && are_held() && !stop.stop_requested()) {
+      worked = context_.waiting.value() > 0 && claim_and_work(runner, stop, OwnersInTurn::idle);
+      worked = context_.sweeps.do_next(runner, stop, OwnersInTurn::idle) || worked;
+    }
   }
 }
 

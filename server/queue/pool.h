@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -24,12 +26,12 @@ void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, c
 void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
              const std::stop_token& stop);
 
-/// @brief A fixed number of worker threads, and a spare one. Thread-safe; the constructor's arguments must
+/// @brief A fixed number of worker threads, and spare ones. Thread-safe; the constructor's arguments must
 /// outlive the object.
 ///
-/// While all workers have been at the same work for JobLimits::spare_after, the spare one works for owners
-/// for whom nothing of the kind (jobs, sweeps) runs: the long work of one owner does not stop the others. It
-/// has a runner while it works.
+/// While all workers have been at the same work for JobLimits::spare_after, spare ones work for owners for
+/// whom nothing of the kind (jobs, sweeps) runs: the long work of some owners does not stop the others. A
+/// spare worker has a runner from its first work on.
 class WorkerPool {
  public:
   /// @param make makes the runner of a thread; called once on each
@@ -47,7 +49,8 @@ class WorkerPool {
  private:
   void run(std::size_t number, const std::stop_token& stop);
   void run_spare(const std::stop_token& stop);
-  void work_for_idle_owners(const std::stop_token& stop);
+  void wait_as_spare(std::uint64_t& seen, const std::stop_token& stop);
+  [[nodiscard]] bool is_left() const;
   bool claim_and_work(Runner& runner, const std::stop_token& stop, OwnersInTurn owners = OwnersInTurn::all);
   [[nodiscard]] bool are_held() const;
   [[nodiscard]] double now() const { return context_.environment.monotonic_seconds(); }
@@ -56,6 +59,7 @@ class WorkerPool {
   RunnerFactory make_;
   /// Time of the monotonic clock at which each worker began its present work; infinite: it waits for some.
   std::vector<std::atomic<double>> begun_;
+  std::mutex on_duty_;  ///< one spare worker at a time looks for work
   /// One for all threads: none takes what another gives back when the pool stops.
   std::stop_source stop_;
   std::vector<std::jthread> threads_;

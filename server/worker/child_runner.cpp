@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -32,6 +33,10 @@ using Clock = std::chrono::steady_clock;
 
 /// Interval at which UnitTask::enough is asked.
 constexpr std::chrono::milliseconds kLook{20};
+/// Time after which a job, or a unit of a sweep, gives way to shorter ones: its process gets a lower
+/// priority.
+constexpr std::chrono::milliseconds kShort{1000};
+constexpr int kGivesWay = 15;  ///< nice value of a process that gives way; others have 5 (confinement.cpp)
 /// Bytes of a frame in addition to the memory limit of an analysis.
 constexpr std::uint64_t kMostBeside = 1 << 20;
 /// Largest size in bytes of one news frame of a running analysis.
@@ -173,6 +178,13 @@ void ChildRunner::replace() {
   start();
 }
 
+/// Replaces a process whose priority was lowered: only a privileged user could raise it again.
+void ChildRunner::retire() {
+  ::kill(process_, SIGKILL);
+  ::waitpid(process_, nullptr, 0);
+  replace();
+}
+
 ChildRunner::End ChildRunner::end_of_process(bool killed) {
   int status = 0;
   ::waitpid(process_, &status, 0);
@@ -236,6 +248,8 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
   const std::stop_callback on_stop(watch.stop, [this] { alarm_.ring(); });
   std::optional<Clock::time_point> deadline;
   bool told_enough = false;
+  bool gives_way = false;
+  Clock::time_point begin = Clock::now();
   for (;;) {
     std::array<pollfd, 2> fds{pollfd{socket_, POLLIN, 0}, pollfd{alarm_.descriptor(), POLLIN, 0}};
     std::optional<std::chrono::milliseconds> wait;
@@ -244,6 +258,12 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
                       std::chrono::ceil<std::chrono::milliseconds>(*deadline - Clock::now()));
     } else if (watch.enough && !told_enough) {
       wait = kLook;
+    } else if (!gives_way) {
+      wait = kShort;
+    }
+    if (!gives_way && Clock::now() >= begin + kShort) {
+      gives_way = ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), kGivesWay) == 0;
+      begin = Clock::now();
     }
     const int ready = ::poll(fds.data(), deadline ? 1 : 2, wait ? static_cast<int>(wait->count()) : -1);
     if (ready > 0 && fds[0].revents != 0) {
@@ -252,7 +272,13 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
         return end_of_process(false);
       }
       if (*last) {
+        if (gives_way) {
+          retire();
+        }
         return End::answered;
+      }
+      if (watch.enough) {
+        begin = Clock::now();  // the next unit begins
       }
     }
     if (!deadline && watch.stop.stop_requested()) {

@@ -66,6 +66,7 @@ class ChildRunner final : public Runner {
   [[nodiscard]] End attend(Watch& watch);
   [[nodiscard]] std::optional<bool> take_frame(Watch& watch);
   static void pass_on(const Frame& news, const Hooks& hooks);
+  void retire();
   [[nodiscard]] End end_of_process(bool killed);
   /// Computes the remaining units of a list, until the process has answered or ended.
   [[nodiscard]] End attempt_units(const UnitTask& task, std::size_t& told, bool at_once, WorkUsage& usage);

@@ -93,8 +93,9 @@ class HostileAnalysis : public testing::Test {
     service_ = std::make_unique<Process>(
         folder_,
         std::vector<std::string>{"serve", "--listen", "127.0.0.1:0", "--store", folder_.file("jobs.db"),
-                                 "--ballast-bytes", "0", "--workers", std::to_string(kWorkers), "--max-run-s",
-                                 kSanitized ? "10" : "3", "--max-job-memory-bytes", "67108864"},
+                                 "--ballast-bytes", "0", "--workers", std::to_string(kWorkers),
+                                 "--spare-workers", "0", "--max-run-s", kSanitized ? "10" : "3",
+                                 "--max-job-memory-bytes", "67108864"},
         "", SNAPTHROUGH_HOSTILE_EXECUTABLE);
     port_ = listening_port(*service_);
     ASSERT_GT(port_, 0) << service_->err();

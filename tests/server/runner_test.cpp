@@ -3,6 +3,7 @@
 /// come to that they had.
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -149,6 +150,25 @@ TEST_F(RunnerTest, OneThatDoesNotStopIsKilledAfterItsGrace) {
   EXPECT_EQ(run.failure->code, "cancelled");
   EXPECT_EQ(counters_.killed, 1);
   EXPECT_TRUE(runner.run_job(column_request(), {}).result);
+}
+
+/// Its priority is lower until it ends; then another process takes its place.
+TEST_F(RunnerTest, OneThatTakesLongGivesWayAndIsReplaced) {
+  ChildRunner runner(options(), counters_);
+  const auto first = static_cast<id_t>(runner.process());
+  constexpr int kLower = 15;
+  std::stop_source stop;
+  const JobRun run = runner.run_job(endless_request(), {stop.get_token(), [&](const Progress&) {
+                                                          if (::getpriority(PRIO_PROCESS, first) == kLower) {
+                                                            stop.request_stop();
+                                                          }
+                                                        }});
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "cancelled");
+  EXPECT_NE(static_cast<id_t>(runner.process()), first);
+  EXPECT_LT(::getpriority(PRIO_PROCESS, static_cast<id_t>(runner.process())), kLower);
+  EXPECT_EQ(counters_.started, 2);
+  EXPECT_EQ(counters_.killed, 0);
 }
 
 TEST_F(RunnerTest, NewsOfALongAnalysisArriveWhileItRuns) {
