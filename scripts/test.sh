@@ -77,6 +77,14 @@ if [ "$preset" = release ]; then
   bash scripts/wasm.sh
 fi
 
+step "page without a service, in Chromium"
+if [ "$preset" = release ]; then
+  site="$(mktemp -d)"
+  bash scripts/site.sh "$site/site"
+  (cd tests/web && SITE="$site/site" node --test static.test.mjs)
+  rm -rf "$site"
+fi
+
 step "commands of the documents, and the script of the theory"
 python3 scripts/check_code_blocks.py "build/$preset/snapthrough"
 /usr/bin/python3 docs/theory/shallow_arch.py

@@ -4,7 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <new>
+#include <string>
 
+#include "api/sweep.h"
 #include "clients/c/snapthrough.h"
 
 extern "C" {
@@ -43,6 +47,21 @@ snapthrough_document* snapthrough_wasm_sweep(const char* document, std::size_t l
                                              int watched) {
   return snapthrough_sweep(document, length, static_cast<std::uint64_t>(first),
                            static_cast<std::uint64_t>(count), nullptr, watched != 0 ? tell : nullptr, nullptr);
+}
+
+/// Request document of a point of a valid sweep; null: there is no such point.
+EXPORTED("point")
+snapthrough_document* snapthrough_wasm_point(const char* document, std::size_t length, double point) {
+  const snapthrough::api::SweepOutcome read = snapthrough::api::read_sweep({document, length});
+  if (!read.sweep || !(point >= 0.0) || point >= static_cast<double>(read.sweep->size())) {
+    return nullptr;
+  }
+  const std::string text = read.sweep->request_text(static_cast<std::uint64_t>(point));
+  // one allocation with its text, as snapthrough_free() takes it
+  void* const memory = ::operator new(sizeof(snapthrough_document) + text.size() + 1);
+  char* const copy = static_cast<char*>(memory) + sizeof(snapthrough_document);
+  std::memcpy(copy, text.c_str(), text.size() + 1);
+  return new (memory) snapthrough_document{copy, text.size(), SNAPTHROUGH_DONE};
 }
 
 /// @param choices options, empty for none

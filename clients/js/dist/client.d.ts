@@ -7,6 +7,8 @@ export interface ClientOptions {
     url?: string;
     /** The bearer key, or what gives it at each request; empty: none. */
     key?: string | (() => string);
+    /** What answers in place of fetch(), such as a solver in the page. */
+    fetch?: (address: string, request: RequestInit) => Promise<Response>;
     /** Is told each warning of each result that `solve` gives. By default warnings go to the console. */
     onWarning?: (warning: Warning, job: string) => void;
 }
@@ -52,8 +54,9 @@ export interface Solution {
 export declare class Client {
     private readonly url;
     private readonly key;
+    private readonly send;
     private readonly onWarning;
-    constructor({ url, key, onWarning }?: ClientOptions);
+    constructor(options?: ClientOptions);
     /** The result of a request, however long it takes. */
     solve(request: RequestDocument, options?: SolveOptions): Promise<Solution>;
     /** The result of a request if it is there within `wait` seconds (at most `longest_wait_s` of the limits). */

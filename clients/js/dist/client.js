@@ -35,10 +35,13 @@ function warnOnConsole(warning) {
 export class Client {
     url;
     key;
+    send;
     onWarning;
-    constructor({ url = "", key = "", onWarning = warnOnConsole } = {}) {
+    constructor(options = {}) {
+        const { url = "", key = "", onWarning = warnOnConsole } = options;
         this.url = url.replace(/\/+$/, "");
         this.key = typeof key === "function" ? key : () => key;
+        this.send = options.fetch ?? ((address, request) => fetch(address, request));
         this.onWarning = onWarning;
     }
     /** The result of a request, however long it takes. */
@@ -151,7 +154,7 @@ export class Client {
             headers.set("Authorization", `Bearer ${key}`);
         let response;
         try {
-            response = await fetch(this.url + path, { ...request, headers });
+            response = await this.send(this.url + path, { ...request, headers });
         }
         catch (error) {
             if (isAbort(error))

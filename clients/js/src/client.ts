@@ -20,6 +20,8 @@ export interface ClientOptions {
   url?: string;
   /** The bearer key, or what gives it at each request; empty: none. */
   key?: string | (() => string);
+  /** What answers in place of fetch(), such as a solver in the page. */
+  fetch?: (address: string, request: RequestInit) => Promise<Response>;
   /** Is told each warning of each result that `solve` gives. By default warnings go to the console. */
   onWarning?: (warning: Warning, job: string) => void;
 }
@@ -90,11 +92,14 @@ function warnOnConsole(warning: Warning): void {
 export class Client {
   private readonly url: string;
   private readonly key: () => string;
+  private readonly send: (address: string, request: RequestInit) => Promise<Response>;
   private readonly onWarning: (warning: Warning, job: string) => void;
 
-  constructor({ url = "", key = "", onWarning = warnOnConsole }: ClientOptions = {}) {
+  constructor(options: ClientOptions = {}) {
+    const { url = "", key = "", onWarning = warnOnConsole } = options;
     this.url = url.replace(/\/+$/, "");
     this.key = typeof key === "function" ? key : () => key;
+    this.send = options.fetch ?? ((address, request) => fetch(address, request));
     this.onWarning = onWarning;
   }
 
@@ -215,7 +220,7 @@ export class Client {
     if (key !== "") headers.set("Authorization", `Bearer ${key}`);
     let response: Response;
     try {
-      response = await fetch(this.url + path, { ...request, headers });
+      response = await this.send(this.url + path, { ...request, headers });
     } catch (error) {
       if (isAbort(error)) throw error;
       throw new Unreachable("The service does not answer.", { cause: error });

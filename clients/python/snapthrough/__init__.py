@@ -15,9 +15,16 @@ solve(), check() and sweep() use libsnapthrough in this process where it is ther
 Local and Client are the same by name. The standard library is enough; numpy, pandas, matplotlib and tqdm are imported
 where they are there and asked for.
 """
+import pathlib
 from typing import Any, Union
 
-from . import documents, results
+try:
+    from . import _builders, documents, results
+except ImportError as _error:  # a checkout in which nothing was built
+    _generator = pathlib.Path(__file__).resolve().parent.parent / "generate.py"
+    raise ImportError("The parts of snapthrough that follow the interface of the service are not there. "
+                      f"Make them: python3 {_generator}") from _error
+
 from ._builders import Buckling, Critical, Path, Static, Vibration
 from ._client import Client
 from ._errors import (AnalysisFailed, Cancelled, Interrupted, InvalidRequest, LibraryNotFound, ServiceError,

@@ -1,6 +1,9 @@
 """The standard library is enough: everything but frames, arrays and drawings works where nothing else is."""
+import pathlib
+import shutil
 import subprocess
 import sys
+import tempfile
 import textwrap
 import unittest
 
@@ -37,6 +40,16 @@ PROGRAM = textwrap.dedent("""
 
 
 class Plain(Case):
+    def test_a_checkout_in_which_nothing_was_built_says_what_to_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder, "clients", "python", "snapthrough")
+            shutil.copytree(pathlib.Path(PACKAGE, "snapthrough"), copy, ignore=shutil.ignore_patterns("__pycache__"))
+            for made in ("documents", "results", "_builders"):
+                copy.joinpath(f"{made}.py").unlink()
+            done = subprocess.run([sys.executable, "-c", "import snapthrough"], cwd=copy.parent, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertTrue(done.stderr.strip().endswith(f"Make them: python3 {copy.parent.resolve() / 'generate.py'}"), done.stderr)
+
     def test_nothing_but_the_standard_library(self):
         service = Service()
         self.addCleanup(service.stop)

@@ -45,6 +45,7 @@ export class Solver {
   solve(request: Document | string, options?: { signal?: AbortSignal; onProgress?: (now: Progress) => void }): Promise<Document>;
   check(document: Document | string, options?: { signal?: AbortSignal }): Promise<Document>;
   plot(document: Document | string, choices?: Document, options?: { signal?: AbortSignal }): Promise<string>;
-  sweep(document: Document | string, options?: { signal?: AbortSignal; onProgress?: (now: SweepProgress) => void }): Promise<Table>;
+  sweep(document: Document | string, options?: { signal?: AbortSignal; onProgress?: (now: SweepProgress) => void; onRows?: (part: Table) => void }): Promise<Table>;
+  point(document: Document | string, number: number, options?: { signal?: AbortSignal }): Promise<Document>;
   close(): void;
 }

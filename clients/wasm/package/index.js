@@ -136,13 +136,20 @@ export class Solver {
     return JSON.parse(text);
   }
 
+  /** The request of a point of a sweep, counted from 0. */
+  async point(document, number, { signal } = {}) {
+    const { status, text } = await this.#run('point', [textOf(document), number], signal);
+    if (status !== Status.DONE) throw new RangeError(`The sweep has no point ${number}.`);
+    return JSON.parse(text);
+  }
+
   /** A figure (SVG) of a result, a request or a table. @param choices as of POST /v1/plot, without the document */
   async plot(document, choices = {}, { signal } = {}) {
     return this.#taken(await this.#run('plot', [textOf(document), JSON.stringify(choices)], signal));
   }
 
-  /** All rows of a sweep, computed by all workers. `onProgress` is told {done, total}. */
-  async sweep(document, { signal, onProgress } = {}) {
+  /** All rows of a sweep, computed by all workers. `onProgress` is told {done, total}, `onRows` each part of the table. */
+  async sweep(document, { signal, onProgress, onRows } = {}) {
     const text = textOf(document);
     const head = JSON.parse(this.#taken(await this.#run('sweep', [text, 0, 0], signal)));  // no rows
     const { total, unit } = head;
@@ -153,6 +160,7 @@ export class Solver {
     const tables = await Promise.all(parts.map(async ([first, count]) => {
       const table = JSON.parse(this.#taken(await this.#run('sweep', [text, first, count], signal)));
       done += count;
+      onRows?.(table);
       onProgress?.({ done, total });
       return table;
     }));
@@ -177,7 +185,7 @@ export class Solver {
 
   async #run(call, given, signal, onProgress = null) {
     if (signal?.aborted) throw reasonOf(signal);
-    const helper = await this.#worker(signal);
+    const helper = await this.#worker(signal, call === 'sweep');
     const abort = () => {
       helper.end(reasonOf(signal));
       this.#busy.delete(helper);
@@ -195,11 +203,13 @@ export class Solver {
     }
   }
 
-  #worker(signal) {
+  /** A worker for one call; parts of sweeps wait behind all other calls. */
+  #worker(signal, isPart) {
     if (this.#closed) throw new Error('The solver was closed.');
     return new Promise((resolve, reject) => {
-      const waiting = { resolve, reject };
-      this.#queue.push(waiting);
+      const waiting = { resolve, reject, isPart };
+      const place = isPart ? -1 : this.#queue.findIndex((one) => one.isPart);
+      this.#queue.splice(place < 0 ? this.#queue.length : place, 0, waiting);
       signal?.addEventListener('abort', () => {
         this.#queue = this.#queue.filter((one) => one !== waiting);
         reject(reasonOf(signal));

@@ -22,5 +22,6 @@ export class Module {
   solve(request: string, onProgress?: ((now: Progress) => boolean | void) | null): Answer;
   check(document: string): Answer;
   sweep(document: string, first: number, count: number, onProgress?: ((now: Progress) => boolean | void) | null): Answer;
+  point(document: string, number: number): Answer;
   plot(document: string, choices?: string): Answer;
 }

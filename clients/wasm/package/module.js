@@ -79,6 +79,10 @@ export class Module {
   sweep(document, first, count, onProgress = null) {
     return this.#call('sweep', [document], onProgress, first, count);
   }
+  /** The request of a point of a valid sweep. */
+  point(document, number) {
+    return this.#call('point', [document], null, number);
+  }
   plot(document, choices = '') {
     return this.#call('plot', [document, choices]);
   }

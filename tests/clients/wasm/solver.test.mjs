@@ -116,6 +116,14 @@ test('a size that a request has', async () => {
   assert.ok(size.unknowns > 0);
 });
 
+test('a request does not wait for the parts of a sweep', async () => {
+  const order = [];
+  const run = solver.sweep(read('sweep_500.json')).then(() => order.push('sweep'));
+  await solver.solve(text('column')).then(() => order.push('request'));
+  await run;
+  assert.deepEqual(order, ['request', 'sweep']);
+});
+
 test('a sweep that is aborted ends, and the solver goes on', async () => {
   const abort = new AbortController();
   const run = solver.sweep(read('sweep_500.json'), {signal: abort.signal, onProgress: ({done}) => done > 0 && abort.abort()});

@@ -4,6 +4,7 @@ import { Client, type Answer } from "../../../clients/js/src/client.js";
 import { Refused, Unreachable } from "../../../clients/js/src/errors.js";
 import { makeStore } from "../store";
 import type { RequestDocument } from "./documents";
+import { isLocal, send } from "./local";
 
 export { isActive, type Answer } from "../../../clients/js/src/client.js";
 export { idOf, isAbort, Refused, Unreachable } from "../../../clients/js/src/errors.js";
@@ -37,7 +38,7 @@ export function hasKey(): boolean {
 async function waitForService(): Promise<void> {
   for (;;) {
     await new Promise((resolve) => setTimeout(resolve, kAskAgain));
-    const alive = await fetch("/livez", { cache: "no-store" }).catch(() => null);
+    const alive = await send("/livez", { cache: "no-store" }).catch(() => null);
     if (alive?.ok) break;
   }
   connection.set({ state: "there", visits: connection.get().visits + 1 });
@@ -76,7 +77,7 @@ class PageClient extends Client {
 }
 
 /** Warnings are shown with the result. */
-export const service = new PageClient({ key: () => key, onWarning: () => undefined });
+export const service = new PageClient({ key: () => key, onWarning: () => undefined, ...(isLocal ? { fetch: send } : {}) });
 
 /** Asks for the studio. @param wait seconds */
 export function solve(request: RequestDocument, wait: number): Promise<Answer> {

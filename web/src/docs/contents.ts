@@ -57,5 +57,5 @@ export function linkTarget(from: string, href: string): string | null {
   if (example?.[1]) return `#/studio?example=${example[1]}`;
   const file = resolved(from, path);
   if (file === null || !kServed.test(file)) return null;
-  return file.endsWith(".md") ? documentAddress(file.slice(0, -3), section) : `/docs/${file}`;
+  return file.endsWith(".md") ? documentAddress(file.slice(0, -3), section) : `docs/${file}`;
 }

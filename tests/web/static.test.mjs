@@ -1,0 +1,108 @@
+// The page without a service: the folder that scripts/site.sh writes, on a file server below a path.
+//   SITE=FOLDER node --test static.test.mjs
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import { extname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { eventually, openPage, settled, slide, startBrowser } from './support/browser.mjs';
+
+const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml', '.md': 'text/markdown' };
+const site = process.env.SITE;
+const missing = [];
+let server;
+let browser;
+let url;
+
+before(async () => {
+  server = createServer(async (request, response) => {
+    const name = new URL(request.url, 'http://local').pathname.replace(/^\/below\//u, '') || 'index.html';
+    const content = await readFile(join(site, name)).catch(() => null);
+    if (content === null) missing.push(request.url);
+    response.writeHead(content === null ? 404 : 200, { 'Content-Type': kTypes[extname(name)] ?? 'application/octet-stream' }).end(content);
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  url = `http://127.0.0.1:${server.address().port}/below/`;
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  server?.closeAllConnections();
+  server?.close();
+});
+
+async function close(page) {
+  assert.deepEqual(page.troubles, []);
+  assert.deepEqual(missing, []);
+  await page.context().close();
+}
+
+const headline = (page) => page.locator('.trust-card .headline strong').innerText();
+
+test('every example is solved in the page', async () => {
+  const page = await openPage(browser, url);
+  await settled(page);
+  const { examples } = JSON.parse(await readFile(join(site, 'v1/examples.json'), 'utf8'));
+  assert.ok(examples.length >= 8, `${examples.length} examples`);
+  for (const { name } of examples) {
+    await page.goto(`${url}#/studio?example=${name}`);
+    await settled(page);
+    assert.match(await headline(page), /\d/u, name);
+  }
+  await close(page);
+});
+
+test('a slider moves the path while it is dragged', async () => {
+  const page = await openPage(browser, `${url}#/studio?problem=tunnel_arch`);
+  await settled(page);
+  const first = await headline(page);
+  await slide(page, 'Ground stiffness', 300);
+  await page.waitForFunction((old) => document.querySelector('.trust-card .headline strong').textContent !== old, first);
+  await settled(page);
+  await close(page);
+});
+
+test('jobs are listed with their loads, and a sweep is computed by the workers of the page', async () => {
+  const page = await openPage(browser, `${url}#/studio?problem=buried_pipe`);
+  await settled(page);
+  const load = (await headline(page)).replace(/\s/gu, '');
+  await page.goto(`${url}#/jobs`);
+  await page.getByText(load.slice(0, 5)).first().waitFor();
+  const sweep = await readFile(new URL('../clients/sweep_500.json', import.meta.url), 'utf8');
+  const found = await page.evaluate(async (body) => {
+    const { Solver } = await import(new URL('solver/index.js', document.baseURI).href);
+    const { LocalService } = await import(new URL('solver/service.js', document.baseURI).href);
+    const service = new LocalService(Solver.create({ workers: 2 }), document.baseURI);
+    const made = await (await service.fetch('/v1/sweeps', { method: 'POST', body })).json();
+    const events = await (await service.fetch(`/v1/sweeps/${made.id}/events`)).text();
+    const table = await (await service.fetch(`/v1/sweeps/${made.id}/table`)).json();
+    const point = await (await service.fetch(`/v1/sweeps/${made.id}/points/7/request`)).json();
+    return { end: events.includes('event: end'), rows: table.rows.length, point: typeof point.model };
+  }, sweep);
+  assert.deepEqual(found, { end: true, rows: 500, point: 'object' });
+  await close(page);
+});
+
+test('documents are read, pictures included', async () => {
+  const page = await openPage(browser, `${url}#/docs/theory`);
+  await page.getByRole('heading', { name: 'Theory', exact: true }).waitFor();
+  await page.waitForFunction(() => document.images.length > 0);
+  const answers = await page.evaluate(() => Promise.all([...document.images].map(async (image) => (await fetch(image.src)).ok)));
+  assert.ok(answers.every(Boolean), `${answers}`);
+  await page.goto(`${url}#/docs/interface`);
+  await page.getByText('/v1/check').first().waitFor();
+  await close(page);
+});
+
+test('once loaded it works without a network', async () => {
+  const page = await openPage(browser, `${url}#/studio?problem=tunnel_arch`);
+  await settled(page);
+  await eventually(() => page.evaluate(async () => (await navigator.serviceWorker.getRegistration())?.active?.state === 'activated'), 'kept');
+  await page.context().setOffline(true);
+  await page.reload();
+  await settled(page);
+  assert.match(await headline(page), /\d/u);
+  await page.context().setOffline(false);
+  await close(page);
+});
