@@ -23,7 +23,8 @@ constexpr std::uint64_t kEnd = 1;
 constexpr int kAttending = 2;
 /// Number of threads for the one turn of large bodies, in addition to the others.
 constexpr int kForLarge = 1;
-/// One party has at most a part of what all share: half of the memory, a quarter of the turns.
+/// One party has at most a part of what all share: half of the memory that the others leave, so that some is
+/// left however many take their part, and a quarter of the turns.
 constexpr std::size_t kPartOfMemory = 2;
 constexpr int kPartOfTurns = 4;
 /// Time after which reading ends when its client has gone, counted from its begin, or when the service is
@@ -557,10 +558,13 @@ bool Listener::Server::account(Client& client) {
 /// Adds bytes that a client holds, or takes them away; returns as account().
 bool Listener::Server::add_held(const Client& client, std::size_t more, std::size_t less) {
   const std::size_t most = options_.limits.buffered_bytes;
-  const std::size_t of_party =
-      std::max(most / kPartOfMemory, options_.limits.head_bytes + options_.limits.body_bytes);
-  const bool party_within = shares_.add_bytes(client.party, more, less) <= of_party;
-  return buffered_.fetch_add(more - less) <= most && party_within;
+  const std::size_t of_party = shares_.add_bytes(client.party, more, less);
+  const std::size_t before = buffered_.fetch_add(more - less);
+  const std::size_t of_all = before + more - less;
+  const std::size_t of_others = std::min(of_all - std::min(of_all, of_party), most);
+  const std::size_t one_body = options_.limits.head_bytes + options_.limits.body_bytes;
+  const std::size_t part = std::max((most - of_others) / kPartOfMemory, of_others <= most / 2 ? one_body : 0);
+  return before <= most && of_party <= part;
 }
 
 void Listener::Server::drop(Client& client) {

@@ -36,7 +36,7 @@ constexpr std::chrono::milliseconds kLook{20};
 /// Time after which a job, or a unit of a sweep, gives way to shorter ones: its process gets a lower
 /// priority.
 constexpr std::chrono::milliseconds kShort{1000};
-constexpr int kGivesWay = 15;  ///< nice value of a process that gives way; others have 5 (confinement.cpp)
+constexpr int kGivesWay = 10;  ///< nice value of a process that gives way: a tenth of the time of another one
 /// Bytes of a frame in addition to the memory limit of an analysis.
 constexpr std::uint64_t kMostBeside = 1 << 20;
 /// Largest size in bytes of one news frame of a running analysis.

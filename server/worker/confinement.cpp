@@ -59,14 +59,12 @@ std::int64_t first_number(std::string_view& text) {
 }  // namespace
 
 bool confine_process(int parent) {
-  constexpr int kNice = 5;
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) {
     return false;
   }
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   limit(RLIMIT_CORE, 0);
-  ::setpriority(PRIO_PROCESS, 0, kNice);
   write_once("/proc/self/oom_score_adj", "1000");
   return true;
 }

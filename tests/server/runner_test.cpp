@@ -156,7 +156,7 @@ TEST_F(RunnerTest, OneThatDoesNotStopIsKilledAfterItsGrace) {
 TEST_F(RunnerTest, OneThatTakesLongGivesWayAndIsReplaced) {
   ChildRunner runner(options(), counters_);
   const auto first = static_cast<id_t>(runner.process());
-  constexpr int kLower = 15;
+  constexpr int kLower = 10;
   std::stop_source stop;
   const JobRun run = runner.run_job(endless_request(), {stop.get_token(), [&](const Progress&) {
                                                           if (::getpriority(PRIO_PROCESS, first) == kLower) {

@@ -163,6 +163,29 @@ TEST_F(SharedPools, OnePartyHasHalfOfTheMemoryForBodies) {
   EXPECT_EQ(post(port(), "/v1/jobs", large, kBob).status, 200);
 }
 
+TEST_F(SharedPools, HoweverMuchTwoPartiesTakeMemoryIsLeftForAThird) {
+  ServiceConfig small = keyed();
+  small.keys.push_back({"cid", "4c26d9074c27d89ede59270c0ac14b71e071b15239519f75474b2f3ba63481f5"});
+  small.listener.limits.body_bytes = 100'000;
+  small.listener.limits.buffered_bytes = 600'000;
+  start_with(small);
+  std::vector<std::unique_ptr<Socket>> senders;
+  for (int i = 0; i < 24; ++i) {
+    senders.push_back(std::make_unique<Socket>(port()));
+    senders.back()->send(posted("/v1/jobs", std::string(80'000, ' '), i % 2 == 0 ? kAnn : kBob, 100'000));
+  }
+  const auto refused = [&] {
+    return std::count_if(senders.begin(), senders.end(), [](const auto& one) { return one->readable(); });
+  };
+  EXPECT_TRUE(eventually([&] { return refused() >= 18; }))
+      << "half of 600 kB holds three or four of 80 kB, half of the rest one or two";
+  std::string body = column_request();
+  body.append(50'000 - body.size(), ' ');
+  EXPECT_EQ(post(port(), "/v1/jobs", body, {"Content-Type: application/json", "Authorization: Bearer carol"})
+                .status,
+            200);
+}
+
 TEST_F(SharedPools, OnePartyHasAQuarterOfTheStreams) {
   ServiceConfig few = keyed();
   few.listener.streams = 8;
