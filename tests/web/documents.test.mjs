@@ -27,7 +27,7 @@ test('every document is there, and every link in them leads to something', async
   const files = new Set();
   const take = (link, from) => {
     if (!link.startsWith('#/docs/')) {
-      if (link.startsWith('/')) files.add(link);
+      if (/^(\/|docs\/)/u.test(link)) files.add(link);
       return;
     }
     const [document, section] = link.split('?at=');
@@ -51,7 +51,7 @@ test('every document is there, and every link in them leads to something', async
   }
   assert.ok(files.size > 10, 'pictures, and the interface');
   for (const file of files) {
-    assert.equal((await fetch(service.url + file)).status, 200, file);
+    assert.equal((await fetch(new URL(file, service.url))).status, 200, file);
   }
   await close(page);
 });
