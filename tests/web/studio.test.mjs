@@ -57,12 +57,14 @@ test('the jobs of a tab go with it', async () => {
   await slide(page, 'Ground stiffness', 300);
   await settled(page);
   await page.getByRole('button', { name: 'Pin this run' }).click();
-  const left = async () => (await (await fetch(`${service.url}/v1/jobs?label=studio`)).json()).jobs.map(({ id }) => id);
+  const listed = async () => (await (await fetch(`${service.url}/v1/jobs?label=studio`)).json()).jobs;
+  const left = async () => (await listed()).map(({ id }) => id);
   const before = new Set(await left());
   await slide(page, 'Ground stiffness', 600, 900);
   await settled(page);
   const added = async () => (await left()).filter((id) => !before.has(id));
   await eventually(async () => (await added()).length > 0, 'the tab has jobs');
+  await eventually(async () => (await listed()).every(({ status }) => status === 'successful'), 'all are answered');
   await page.close({ runBeforeUnload: true });
   await eventually(async () => (await added()).length === 0, 'they are removed');
   await page.context().close();

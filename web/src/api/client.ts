@@ -3,7 +3,7 @@
 import { Client, type Answer } from "../../../clients/js/src/client.js";
 import { Refused, Unreachable } from "../../../clients/js/src/errors.js";
 import { makeStore } from "../store";
-import type { RequestDocument } from "./documents";
+import type { Job, RequestDocument } from "./documents";
 import { isLocal, send } from "./local";
 
 export { isActive, type Answer } from "../../../clients/js/src/client.js";
@@ -78,6 +78,11 @@ class PageClient extends Client {
 
 /** Warnings are shown with the result. */
 export const service = new PageClient({ key: () => key, onWarning: () => undefined, ...(isLocal ? { fetch: send } : {}) });
+
+/** Hands in for the studio without waiting: the job is known at once. */
+export function submit(request: RequestDocument): Promise<Job> {
+  return service.submit(request, { label: kStudioLabel });
+}
 
 /** Asks for the studio. @param wait seconds */
 export function solve(request: RequestDocument, wait: number): Promise<Answer> {

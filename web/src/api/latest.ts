@@ -3,7 +3,7 @@
 // shown is dropped. Jobs that were overtaken are dismissed or removed, so that a thousand moves don't leave a thousand jobs.
 
 import type { RequestDocument, Result } from "./documents";
-import { type Answer, service, solve } from "./client";
+import { type Answer, isActive, service, solve, submit } from "./client";
 
 const kInFlight = 2;
 const kMostUnwanted = 100;  // overtaken jobs that wait for a pause before they are removed
@@ -45,6 +45,7 @@ export class Latest {
   private waiting: Question | null = null;
   private readonly unwanted: string[] = [];
   private removing = false;
+  private beside = "";  // job of what is asked aside
   /** The most requests that were ever in flight, for tests. */
   most = 0;
 
@@ -63,12 +64,20 @@ export class Latest {
     if (this.inFlight > 0) return null;
     this.inFlight += 1;
     try {
-      const answer = await solve(request, wait);
-      this.discard(answer.job);
-      return answer.result;
+      const { id, status } = await submit(request);
+      this.beside = id;
+      const ended = !isActive(status) || !isActive((await service.job(id, wait)).status);
+      return ended ? await service.jobResult(id) : null;
     } finally {
+      this.discard(this.beside);
+      this.beside = "";
       this.ended();
     }
+  }
+
+  /** Jobs that are removed sooner or later. */
+  get passing(): string[] {
+    return [this.beside, ...this.unwanted].filter((job) => job !== "" && !this.takers.isWanted(job));
   }
 
   /** Removes a job that nobody needs any more. */
@@ -113,8 +122,9 @@ export class Latest {
     if (this.removing) return;
     this.removing = true;
     while (this.unwanted.length > (this.inFlight > 0 ? kMostUnwanted : 0)) {
-      const job = this.unwanted.shift();
+      const job = this.unwanted[0];
       if (job !== undefined && !this.takers.isWanted(job)) await service.deleteJob(job).catch(() => undefined);
+      this.unwanted.shift();
     }
     this.removing = false;
   }

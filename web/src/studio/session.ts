@@ -287,12 +287,13 @@ export function openFirst(): void {
   if (first && !studio.get().request) void openProblem(first);
 }
 
-// The runs of a tab go with it, but for those that were shared.
+// The runs of a tab go with it, but for those that were shared. A job whose first answer is still on its way is not known to the
+// tab, and stays until the service's own time.
 addEventListener("pagehide", ({ persisted }) => {
   if (persisted) return;
   const { run, shadow, pins } = studio.get();
   const jobs = new Set([run, shadow, ...pins, ...leaving].flatMap((one) => (one && !one.kept ? [one.job] : [])));
-  for (const job of jobs) void service.deleteJob(job, true).catch(() => undefined);
+  for (const job of [...jobs, ...latest.passing]) void service.deleteJob(job, true).catch(() => undefined);
 });
 
 let visits = 0;
