@@ -81,6 +81,19 @@ test('jobs are listed with their loads, and a sweep is computed by the workers o
     return { end: events.includes('event: end'), rows: table.rows.length, point: typeof point.model };
   }, sweep);
   assert.deepEqual(found, { end: true, rows: 500, point: 'object' });
+  const [right, failing] = await Promise.all(['arch', 'failing'].map((name) => readFile(new URL(`../clients/requests/${name}.json`, import.meta.url), 'utf8')));
+  const waited = await page.evaluate(async ([body, other]) => {
+    const { Solver } = await import(new URL('solver/index.js', document.baseURI).href);
+    const { LocalService } = await import(new URL('solver/service.js', document.baseURI).href);
+    const service = new LocalService(Solver.create({ workers: 1 }), document.baseURI);
+    const post = (text, Prefer) => service.fetch('/v1/jobs', { method: 'POST', body: text, headers: { Prefer } });
+    const { id, status } = await (await post(body, 'return=minimal')).json();
+    const ended = await (await service.fetch(`/v1/jobs/${id}`, { headers: { Prefer: 'wait=60' } })).json();
+    const failed = await post(other, 'wait=60');
+    const reached = await failed.json();
+    return { status, ended: ended.status, code: failed.status, named: failed.headers.get('Location').startsWith('/v1/jobs/'), reached: typeof reached.reached };
+  }, [right, failing]);
+  assert.deepEqual(waited, { status: 'running', ended: 'successful', code: 422, named: true, reached: 'object' });
   await close(page);
 });
 

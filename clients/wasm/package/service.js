@@ -12,8 +12,8 @@ const json = (status, body, headers = {}) =>
     status, headers: { 'Content-Type': status >= 400 ? 'application/problem+json' : 'application/json', ...headers },
   });
 
-function problem(status, kind, title, detail, more = {}) {
-  return json(status, { type: kProblem + kind, title, status, detail, instance: '', request_id: '', ...more });
+function problem(status, kind, title, detail, more = {}, headers = {}) {
+  return json(status, { type: kProblem + kind, title, status, detail, instance: '', request_id: '', ...more }, headers);
 }
 
 const notHere = (path) =>
@@ -52,6 +52,11 @@ class Task {
   tell(event, data) {
     for (const follower of this.followers) follower(event, data);
   }
+  /** Waits for its end, at most as long as a header Prefer says. */
+  async wait(prefer) {
+    const seconds = Number(/wait=(\d+)/u.exec(prefer)?.[1] ?? 0);
+    if (seconds > 0) await Promise.race([this.ended, new Promise((resolve) => setTimeout(resolve, 1000 * seconds))]);
+  }
   finish(status, message = MESSAGES[status]) {
     this.change({ status, message, progress: 100, finished: now() });
     this.tell('end', this.status);
@@ -88,11 +93,14 @@ export class LocalService {
       if (version !== 'v1') return notHere(url.pathname);
       if (['examples', 'limits', 'openapi.json'].includes(kind)) return await this.#file(`v1/${kind.replace(/\.json$/u, '')}.json`);
       if (kind === 'check' && method === 'POST') return json(200, await (await this.#solver).check(body));
-      if (kind === 'jobs') return await (id ? this.#ofJob(method, this.#jobs.get(id), part, url) : this.#ofJobs(method, body, prefer, url));
-      if (kind === 'sweeps') {
-        return await (id ? this.#ofSweep(method, this.#sweeps.get(id), part, url, number, last) : this.#ofSweeps(method, body, url));
-      }
-      return notHere(url.pathname);
+      const tasks = { jobs: this.#jobs, sweeps: this.#sweeps }[kind];
+      if (!tasks) return notHere(url.pathname);
+      if (!id && method === 'GET') return this.#list(kind, tasks, url);
+      if (!id) return await (kind === 'jobs' ? this.#newJob(body, prefer) : this.#newSweep(body));
+      const task = tasks.get(id);
+      if (!task) return notHere(url.pathname);
+      return await this.#common(tasks, method, task, part, prefer) ??
+        (method !== 'GET' ? notHere(url.pathname) : kind === 'jobs' ? this.#ofJob(task, part, url) : await this.#ofSweep(task, part, url, number, last));
     } catch (error) {
       if (error instanceof SyntaxError) return problem(400, 'malformed-json', 'Malformed JSON', error.message);
       throw error;
@@ -106,34 +114,28 @@ export class LocalService {
 
   // --- jobs
 
-  async #ofJobs(method, body, prefer, url) {
-    if (method === 'GET') return this.#list('jobs', this.#jobs, url);
-    const { document, label } = unwrapped(body, 'request');
-    const solver = await this.#solver;
-    const checked = await solver.check(document);
-    if (checked.errors?.length > 0) {
-      return problem(422, 'invalid-request', 'Invalid request', `The document has ${checked.errors.length} mistakes.`, { errors: checked.errors });
-    }
-    const job = new Task('job', document, label);
+  async #newJob(body, prefer) {
+    const made = await this.#checked('job', unwrapped(body, 'request'));
+    if (made.refusal) return made.refusal;
+    const job = made.task;
     this.#keep(this.#jobs, job);
-    void this.#solve(solver, job);
+    void this.#solve(job);
     const location = { Location: `/v1/jobs/${job.status.id}` };
-    const seconds = Number(/wait=(\d+)/u.exec(prefer)?.[1] ?? 0);
-    if (/return=minimal/u.test(prefer) || seconds === 0) return json(201, job.status, location);
-    await Promise.race([job.ended, new Promise((resolve) => setTimeout(resolve, 1000 * seconds))]);
-    if (job.isActive) return json(202, job.status, location);
-    return job.result && job.status.status === 'successful' ? json(200, job.result, location) : this.#failure(job, location);
+    if (/return=minimal|respond-async/u.test(prefer)) return json(201, job.status, location);
+    await job.wait(prefer);
+    if (job.isActive) return json(201, job.status, location);
+    return job.result ? json(200, job.result, location) : this.#failure(job, location);
   }
 
   #failure(job, location) {
     return problem(422, 'analysis-failed', 'The analysis could not be completed', job.failure?.detail ?? job.status.message, {
-      code: job.failure?.code ?? job.status.status, ...(job.reached ? { reached: job.reached } : {}), ...location,
-    });
+      code: job.failure?.code ?? job.status.status, ...(job.reached ? { reached: job.reached } : {}),
+    }, location);
   }
 
-  async #solve(solver, job) {
+  async #solve(job) {
     try {
-      const result = await solver.solve(job.document, {
+      const result = await (await this.#solver).solve(job.document, {
         signal: job.abort.signal,
         onProgress: ({ done, loadFactor, branch, negativeEigenvalues }) => job.tell('progress', {
           attempt: 1, step: done, load_factor: loadFactor, branch, negative_eigenvalues: negativeEigenvalues,
@@ -154,11 +156,8 @@ export class LocalService {
     return undefined;
   }
 
-  #ofJob(method, job, part, url) {
-    if (!job) return notHere(url.pathname);
-    const answer = this.#common(this.#jobs, method, job, part);
-    if (answer) return answer;
-    if (part !== 'result' || method !== 'GET') return notHere(url.pathname);
+  #ofJob(job, part, url) {
+    if (part !== 'result') return notHere(url.pathname);
     if (!job.result) return job.isActive ? problem(404, 'not-found', 'Not found', 'The result is not ready.') : this.#failure(job, {});
     if (url.searchParams.get('format') !== 'csv') return json(200, job.result);
     const name = url.searchParams.get('table');
@@ -168,23 +167,18 @@ export class LocalService {
 
   // --- sweeps
 
-  async #ofSweeps(method, body, url) {
-    if (method === 'GET') return this.#list('sweeps', this.#sweeps, url);
-    const { document, label } = unwrapped(body, 'sweep');
-    const solver = await this.#solver;
-    const checked = await solver.check(document);
-    if (checked.errors?.length > 0) {
-      return problem(422, 'invalid-request', 'Invalid sweep', `The document has ${checked.errors.length} mistakes.`, { errors: checked.errors });
-    }
-    const sweep = new Task('sweep', document, label);
-    const points = checked.size?.points ?? 0;
+  async #newSweep(body) {
+    const made = await this.#checked('sweep', unwrapped(body, 'sweep'));
+    if (made.refusal) return made.refusal;
+    const sweep = made.task;
+    const points = made.size?.points ?? 0;
     sweep.change({ points, counts: { successful: 0, failed: 0, reused: 0, remaining: points } });
     this.#keep(this.#sweeps, sweep);
-    void this.#sweep(solver, sweep);
+    void this.#sweep(sweep);
     return json(201, sweep.status, { Location: `/v1/sweeps/${sweep.status.id}` });
   }
 
-  async #sweep(solver, sweep) {
+  async #sweep(sweep) {
     sweep.rows = new Map();
     const take = (table) => {
       sweep.head = { ...table, points: [], rows: [] };
@@ -199,7 +193,7 @@ export class LocalService {
       sweep.tell('progress', { ...sweep.status.counts, progress: sweep.status.progress });
     };
     try {
-      await solver.sweep(sweep.document, { signal: sweep.abort.signal, onRows: take });
+      await (await this.#solver).sweep(sweep.document, { signal: sweep.abort.signal, onRows: take });
       const { failed } = sweep.status.counts;
       sweep.finish(failed > 0 ? 'failed' : 'successful',
                    failed > 0 ? `the table is complete; ${failed} of ${sweep.status.points} points failed` : 'the table is complete');
@@ -208,12 +202,9 @@ export class LocalService {
     }
   }
 
-  async #ofSweep(method, sweep, part, url, number, last) {
-    if (!sweep) return notHere(url.pathname);
-    const answer = this.#common(this.#sweeps, method, sweep, part);
-    if (answer) return answer;
+  async #ofSweep(sweep, part, url, number, last) {
     if (part === 'points' && last === 'request') return json(200, await (await this.#solver).point(sweep.document, Number(number)));
-    if (part === 'table' && method === 'GET') return this.#table(sweep, url.searchParams);
+    if (part === 'table') return this.#table(sweep, url.searchParams);
     return notHere(url.pathname);
   }
 
@@ -225,6 +216,14 @@ export class LocalService {
   }
 
   // --- both
+
+  /** A task for a document, or the refusal of one with mistakes. */
+  async #checked(kind, { document, label }) {
+    const { errors = [], size } = await (await this.#solver).check(document);
+    if (errors.length === 0) return { task: new Task(kind, document, label), size };
+    const detail = `The document has ${errors.length} ${errors.length === 1 ? 'mistake' : 'mistakes'}.`;
+    return { refusal: problem(422, 'invalid-request', 'Invalid request', detail, { errors }) };
+  }
 
   #keep(tasks, task) {
     tasks.set(task.status.id, task);
@@ -242,8 +241,11 @@ export class LocalService {
   }
 
   /** What jobs and sweeps have in common; null for what they have not. */
-  #common(tasks, method, task, part) {
-    if (!part && method === 'GET') return json(200, task.status);
+  async #common(tasks, method, task, part, prefer) {
+    if (!part && method === 'GET') {
+      await task.wait(prefer);
+      return json(200, task.status);
+    }
     if (!part && method === 'DELETE') {
       task.abort.abort();
       tasks.delete(task.status.id);
