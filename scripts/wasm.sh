@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the solver for WebAssembly, as the npm package snapthrough-solver in build/wasm/package, and tests it in Node.
 #   scripts/wasm.sh             installs the compiler where it is missing, builds, and tests against build/release/snapthrough
-#   scripts/wasm.sh --build     builds only
+#   scripts/wasm.sh --build     builds the package without testing it
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=scripts/lib/packages.sh

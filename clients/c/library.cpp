@@ -239,9 +239,7 @@ std::string broken_rule(const api::Sweep& sweep, const Points& points) {
 Answer swept(const api::Sweep& sweep, const nlohmann::json& asked, Points points, Caller& caller) {
   const Hooks hooks{.stop = caller.stopped()};
   points.count = std::min(points.count, sweep.size() - points.first);
-  api::TableWriter table(
-      sweep, api::TableForm::json, std::nullopt,
-      api::provenance_members("table", asked));
+  api::TableWriter table(sweep, api::TableForm::json, std::nullopt, api::provenance_members("table", asked));
   Answer answer{SNAPTHROUGH_DONE, "{\"total\": " + std::to_string(sweep.size()) +
                                       ", \"unit\": " + std::to_string(sweep.unit_size()) + ", " +
                                       table.head().substr(1)};

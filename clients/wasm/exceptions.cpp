@@ -57,7 +57,7 @@ struct alignas(std::max_align_t) Thrown {
 Flight* caught = nullptr;  // the innermost handler's first
 unsigned uncaught = 0;
 
-/// For std::bad_alloc when there is no memory left.
+/// Memory for one small exception, such as std::bad_alloc, where malloc() has none.
 struct alignas(std::max_align_t) {
   std::byte bytes[256];
   bool is_used = false;
@@ -154,7 +154,8 @@ struct Handlers {
   }
 };
 
-/// Number of the first type that takes the exception, whose address it adjusts; 0: none.
+/// Returns the number of the first handler type that takes the thrown object, and sets `Flight::object` to the
+/// address that this handler gets; 0: no handler takes it.
 std::uintptr_t choose(const Handlers& handlers, Flight& flight) {
   const std::uint8_t* at = handlers.action == 0 ? nullptr : handlers.actions + handlers.action - 1;
   while (at != nullptr) {
@@ -254,7 +255,7 @@ std::type_info* __cxa_current_exception_type() {
 bool __cxa_uncaught_exception() noexcept { return uncaught != 0; }
 unsigned __cxa_uncaught_exceptions() noexcept { return uncaught; }
 
-// for std::exception_ptr, which holds the object
+// libc++ calls these for std::exception_ptr, which keeps a thrown object alive
 void* __cxa_current_primary_exception() noexcept {
   if (caught == nullptr) return nullptr;
   ++caught->thrown->references;

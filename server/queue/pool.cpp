@@ -20,7 +20,7 @@ using std::chrono::duration;
 /// store it is longer, because Neighbours polls for all workers of the process.
 constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kLongestSharedNap{10.0};
-/// Begin of the work of a worker that has none.
+/// Value of WorkerPool::begun_ for a worker that waits for work.
 constexpr double kWaits = std::numeric_limits<double>::infinity();
 /// Pause before another attempt to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
@@ -270,7 +270,7 @@ bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop, Own
   return claim.has_value();
 }
 
-/// Whether all workers have been at the same work for long.
+/// Whether all workers have been at the same work for JobLimits::spare_after.
 bool WorkerPool::are_held() const {
   const double before = now() - duration<double>(context_.limits.spare_after).count();
   return std::all_of(begun_.begin(), begun_.end(), [&](const auto& begun) { return begun < before; });

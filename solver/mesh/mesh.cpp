@@ -93,7 +93,7 @@ class MeshChoice {
   static bool is_checked(MeshUse use) { return use != MeshUse::final; }
   [[nodiscard]] const ChosenMesh& rule() const { return rule_; }
 
-  /// Numbers of elements of the pieces of a member.
+  /// Number of elements for each piece of a member between neighbouring `breaks`.
   [[nodiscard]] std::vector<int> counts(const MemberActions& actions, const AxisCurve& axis,
                                         const std::vector<double>& breaks) const {
     std::vector<int> out;

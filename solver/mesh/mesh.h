@@ -64,7 +64,7 @@ enum class MeshUse {
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
 
-/// Number of a mesh's elements, and their order.
+/// Number of elements of a whole mesh, and the order of each.
 struct MeshSize {
   long long elements = 0;
   int order = 1;

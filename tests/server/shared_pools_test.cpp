@@ -30,10 +30,24 @@ class SharedPools : public ServiceTest {
     keyed.listener.limits.body_bytes = 4'000'000;
     return keyed;
   }
-  void start_with(const ServiceConfig& config) {
-    service_ = std::make_unique<Service>(config, Environment::system(), local_runners(quick), log_);
+  void start_with(const ServiceConfig& config, SolveFunction solver = quick) {
+    service_ =
+        std::make_unique<Service>(config, Environment::system(), local_runners(std::move(solver)), log_);
     const Status status = service_->start();
     ASSERT_TRUE(status.ok()) << status.message();
+  }
+  using Sockets = std::vector<std::unique_ptr<Socket>>;
+  /// Bodies of 100 kB of which 80 kB are sent, of these owners in turn.
+  Sockets unfinished(std::size_t count, const std::vector<Headers>& owners) const {
+    Sockets senders;
+    for (std::size_t i = 0; i < count; ++i) {
+      senders.push_back(std::make_unique<Socket>(port()));
+      senders.back()->send(posted("/v1/jobs", std::string(80'000, ' '), owners[i % owners.size()], 100'000));
+    }
+    return senders;
+  }
+  static std::ptrdiff_t answered(const Sockets& senders) {
+    return std::count_if(senders.begin(), senders.end(), [](const auto& one) { return one->readable(); });
   }
   static Result quick(const Model&, const Analysis&, const Hooks&) { return {}; }
 };
@@ -87,8 +101,7 @@ TEST_F(SharedPools, LongWorkOfOneOwnerOnAllWorkersDoesNotStopOthers) {
   ServiceConfig narrow = keyed();
   narrow.workers = 1;
   narrow.jobs.spare_after = 100ms;
-  service_ = std::make_unique<Service>(narrow, Environment::system(), local_runners(gated(solver)), log_);
-  ASSERT_TRUE(service_->start().ok());
+  start_with(narrow, gated(solver));
   const auto submitted = [&](const std::string& target, const std::string& body, Headers headers) {
     headers.emplace_back("Prefer: respond-async");
     return post(port(), target, body, headers).header("Location");
@@ -115,8 +128,7 @@ TEST_F(SharedPools, LongJobsOnAllWorkersDoNotStopSweeps) {
   ServiceConfig narrow = keyed();
   narrow.workers = 1;
   narrow.jobs.spare_after = 100ms;
-  service_ = std::make_unique<Service>(narrow, Environment::system(), local_runners(gated(solver)), log_);
-  ASSERT_TRUE(service_->start().ok());
+  start_with(narrow, gated(solver));
   Headers async = kAnn;
   async.emplace_back("Prefer: respond-async");
   EXPECT_EQ(post(port(), "/v1/jobs", column_request("first"), async).status, 201);
@@ -149,15 +161,9 @@ TEST_F(SharedPools, OnePartyHasHalfOfTheMemoryForBodies) {
   small.listener.limits.body_bytes = 100'000;
   small.listener.limits.buffered_bytes = 600'000;
   start_with(small);
-  std::vector<std::unique_ptr<Socket>> senders;
-  for (int i = 0; i < 12; ++i) {
-    senders.push_back(std::make_unique<Socket>(port()));
-    senders.back()->send(posted("/v1/jobs", std::string(80'000, ' '), kAnn, 100'000));
-  }
-  const auto refused = [&] {
-    return std::count_if(senders.begin(), senders.end(), [](const auto& one) { return one->readable(); });
-  };
-  EXPECT_TRUE(eventually([&] { return refused() >= 8; })) << "three or four of 80 kB fit into half of 600 kB";
+  const auto senders = unfinished(12, {kAnn});
+  EXPECT_TRUE(eventually([&] { return answered(senders) >= 8; }))
+      << "three or four of 80 kB fit into half of 600 kB";
   std::string large = column_request();
   large.append(90'000 - large.size(), ' ');
   EXPECT_EQ(post(port(), "/v1/jobs", large, kBob).status, 200);
@@ -169,15 +175,8 @@ TEST_F(SharedPools, HoweverMuchTwoPartiesTakeMemoryIsLeftForAThird) {
   small.listener.limits.body_bytes = 100'000;
   small.listener.limits.buffered_bytes = 600'000;
   start_with(small);
-  std::vector<std::unique_ptr<Socket>> senders;
-  for (int i = 0; i < 24; ++i) {
-    senders.push_back(std::make_unique<Socket>(port()));
-    senders.back()->send(posted("/v1/jobs", std::string(80'000, ' '), i % 2 == 0 ? kAnn : kBob, 100'000));
-  }
-  const auto refused = [&] {
-    return std::count_if(senders.begin(), senders.end(), [](const auto& one) { return one->readable(); });
-  };
-  EXPECT_TRUE(eventually([&] { return refused() >= 18; }))
+  const auto senders = unfinished(24, {kAnn, kBob});
+  EXPECT_TRUE(eventually([&] { return answered(senders) >= 18; }))
       << "half of 600 kB holds three or four of 80 kB, half of the rest one or two";
   std::string body = column_request();
   body.append(50'000 - body.size(), ' ');
