@@ -75,7 +75,8 @@ Status Writer::run(const Work& work, Durability durability, const std::function<
     queued();
   }
   changed_.notify_one();
-  item.done.acquire();
+  std::unique_lock lock(mutex_);
+  item.ended.wait(lock, [&] { return item.done; });
   return std::move(item.status);
 }
 
@@ -97,10 +98,11 @@ void Writer::loop() {
     }
     lock.unlock();
     commit_batch(batch);
-    for (Item* item : batch) {
-      item->done.release();  // after this the caller may destroy the item
-    }
     lock.lock();
+    for (Item* item : batch) {
+      item->done = true;  // once the lock is released, the caller may destroy the item
+      item->ended.notify_one();
+    }
   }
 }
 

@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <semaphore>
 #include <thread>
 
 #include "server/metrics/metrics.h"
@@ -53,7 +52,8 @@ class Writer {
     Durability durability;
     bool patient = false;
     Status status = {};
-    std::binary_semaphore done{0};
+    bool done = false;                ///< guarded by mutex_
+    std::condition_variable ended{};  ///< not a semaphore: that yields the processor before it sleeps
   };
   void loop();
   void commit_batch(std::deque<Item*>& batch);
