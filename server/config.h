@@ -15,6 +15,7 @@
 #include "server/queue/job_service.h"
 #include "server/resources/routes.h"
 #include "server/webhooks/webhooks.h"
+#include "server/worker/child_runner.h"
 
 namespace snapthrough::server {
 
@@ -33,7 +34,7 @@ struct ServiceConfig {
   std::string store_path = "snapthrough.db";  ///< SQLite file in an existing folder, or postgresql://...
   int store_connections = 4;                  ///< connections of this process to a database
   int workers = 1;  ///< analyses at a time, <= 1024; 0: processes that share the store work
-  std::string runner_executable = "/proc/self/exe";  ///< path of snapthrough; runners are started from it
+  std::string runner_executable = own_executable();  ///< path of snapthrough; runners are started from it
   JobLimits jobs;                                    ///< queue, leases, retention, callback hosts
   std::string callback_secret_file;                  ///< secret that signs callbacks; empty: no callbacks
   WebhookTimes callback_times;

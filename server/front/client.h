@@ -99,7 +99,8 @@ struct Client {
   int socket;
   const std::uint64_t id;
   const std::string remote;
-  std::string party;  ///< who asks, see Caller::party; the address until a head tells more
+  std::string party;       ///< who asks, see Caller::party; the address until a head tells more
+  bool gives_way = false;  ///< the lane of low priority watches the socket
   Phase phase = Phase::idle;
   Clock::time_point deadline;
   RequestReader reader;

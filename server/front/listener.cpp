@@ -2,11 +2,11 @@
 
 #include <poll.h>
 #include <sys/epoll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <ctime>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -39,10 +39,16 @@ constexpr std::string_view kTooMany =
     R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503,)"
     R"("detail":"As many connections are open as are taken."})";
 
-std::chrono::nanoseconds processor_time() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+/// Nice value of the threads of low priority: they have a tenth of the time of others.
+constexpr int kLowPriority = 10;
+/// Whether the calling thread has the low priority.
+thread_local bool is_low = false;
+
+void watch(const Lane& lane, int descriptor, std::uint64_t name, std::uint32_t events, int operation) {
+  epoll_event event{};
+  event.events = events;
+  event.data.u64 = name;
+  ::epoll_ctl(lane.epoll.get(), operation, descriptor, &event);
 }
 
 /// Sent when there is no memory to make any other response.
@@ -60,11 +66,13 @@ constexpr const char* kStillThere = ": still there\n\n";
 Listener::Server::Server(ListenerOptions options, Gateway& gateway)
     : options_(std::move(options)),
       gateway_(gateway),
-      turns_(options_.threads, std::max(1, options_.threads / kPartOfTurns)),
-      large_turns_(1, 1),
-      epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
-  watch(wakes_ready_.descriptor(), kWakes, EPOLLIN, EPOLL_CTL_ADD);
-  watch(end_.descriptor(), kEnd, EPOLLIN, EPOLL_CTL_ADD);
+      normal_(options_.threads, std::max(1, options_.threads / kPartOfTurns)),
+      low_(options_.threads, std::max(1, options_.threads / kPartOfTurns)),
+      large_turns_(1, 1) {
+  for (const Lane* lane : {&normal_, &low_}) {
+    watch(*lane, lane->wakes_ready.descriptor(), kWakes, EPOLLIN, EPOLL_CTL_ADD);
+    watch(*lane, end_.descriptor(), kEnd, EPOLLIN, EPOLL_CTL_ADD);
+  }
 }
 
 Status Listener::Server::start() {
@@ -76,7 +84,14 @@ Status Listener::Server::start() {
   listening_ = std::move(listening).value();
   port_ = port_of(listening_.get());
   for (int i = 0; i < options_.threads + kForLarge + kAttending; ++i) {
-    threads_.emplace_back([this] { work(); });
+    threads_.emplace_back([this] { work(normal_); });
+  }
+  for (int i = 0; i < options_.threads; ++i) {
+    threads_.emplace_back([this] {
+      is_low = true;
+      ::setpriority(PRIO_PROCESS, 0, kLowPriority);  // this thread alone
+      work(low_);
+    });
   }
   keeper_ = std::thread([this] { keep(); });
   return {};
@@ -100,20 +115,21 @@ void Listener::Server::shut_down() {
 
 ListenerLoad Listener::Server::load() const {
   const std::lock_guard guard(table_mutex_);
-  return {static_cast<int>(clients_.size()), streams_, buffered_, turns_.longest_wait(), without_memory_};
+  return {static_cast<int>(clients_.size()), streams_, buffered_, normal_.turns.longest_wait(),
+          without_memory_};
 }
 
-void Listener::Server::work() {
+void Listener::Server::work(Lane& lane) {
   while (true) {
     epoll_event event{};
-    if (::epoll_wait(epoll_.get(), &event, 1, -1) != 1) {
+    if (::epoll_wait(lane.epoll.get(), &event, 1, -1) != 1) {
       continue;
     }
     if (event.data.u64 == kEnd) {
       return;
     }
     if (event.data.u64 == kWakes) {
-      take_wake();
+      take_wake(lane);
     } else if (const ClientPointer client = find(event.data.u64)) {
       this->event(client, event.events);
     }
@@ -207,7 +223,7 @@ void Listener::Server::admit(Descriptor socket, const std::string& remote) {
   socket.release();  // the Client closes it
   client->deadline = Clock::now() + options_.times.idle;
   clients_.emplace(id, client);
-  watch(client->socket, id, EPOLLIN | EPOLLONESHOT, EPOLL_CTL_ADD);
+  watch(normal_, client->socket, id, EPOLLIN | EPOLLONESHOT, EPOLL_CTL_ADD);
 }
 
 void Listener::Server::sweep() {
@@ -239,7 +255,7 @@ void Listener::Server::sweep_one(const ClientPointer& client, Clock::time_point 
   const bool wants_room = client->phase == Phase::sending && client->output.empty();
   if (client->phase == Phase::deferred || wants_room) {
     client->deadline = Clock::time_point::max();
-    wake({client->id, client->deferral});
+    wake(normal_, {client->id, client->deferral});
   } else if (client->phase == Phase::streaming && !going) {
     client->outbox->put(kStillThere, false);
     pump(client);
@@ -398,28 +414,57 @@ bool Listener::Server::in_turn(const ClientPointer& client, std::function<Respon
   client->work = std::move(work);
   client->work_bytes = bytes;
   account(*client);
-  if (turns_for(*client).take(client->id, client->party)) {
-    return work_on(client);
+  Turns& turns = turns_for(*client);
+  const bool has_turn = turns.take(client->id, client->party);
+  const bool elsewhere = &turns == &low_.turns && !is_low;
+  if (has_turn && !elsewhere) {
+    return work_on(client, turns);
   }
   client->phase = Phase::in_row;
   client->deadline = Clock::time_point::max();
   rearm(*client, end_of(*client));
+  if (has_turn) {
+    wake(low_, {client->id, 0, &turns, client->party});
+  }
   return false;
 }
 
+/// Whether threads of low priority serve a client: its party has used much processor time. Large bodies keep
+/// the normal priority, since others wait for their only turn.
+bool Listener::Server::gives_way(const Client& client) const {
+  return client.work_bytes <= LargeDocument::kSmall && use_.is_much(client.party);
+}
+
+Turns& Listener::Server::turns_for(const Client& client) {
+  return client.work_bytes > LargeDocument::kSmall ? large_turns_
+         : use_.is_much(client.party)              ? low_.turns
+                                                   : normal_.turns;
+}
+
+/// Watches the socket of a client for events, once, in the lane that serves the client.
+void Listener::Server::rearm(Client& client, std::uint32_t events) {
+  const bool low = gives_way(client);
+  if (low != client.gives_way) {
+    watch(low ? normal_ : low_, client.socket, client.id, 0, EPOLL_CTL_DEL);
+  }
+  watch(low ? low_ : normal_, client.socket, client.id, events | EPOLLONESHOT,
+        low == client.gives_way ? EPOLL_CTL_MOD : EPOLL_CTL_ADD);
+  client.gives_way = low;
+}
+
 /// Computes the response in the client's turn. Returns the value of deliver().
-bool Listener::Server::work_on(const ClientPointer& client) {
-  Response response = in_its_turn(*client);
+bool Listener::Server::work_on(const ClientPointer& client, Turns& turns) {
+  Response response = in_its_turn(*client, turns);
   client->work_bytes = 0;
   account(*client);
   return deliver(client, std::move(response));
 }
 
 /// Computes the response of a client that has a turn, and passes the turn on, also when that throws.
-Response Listener::Server::in_its_turn(Client& client) {
+Response Listener::Server::in_its_turn(Client& client, Turns& turns) {
   struct Turn {
-    Turn(Server& the_server, Client& its_client)
-        : server(the_server), client(its_client), turns(the_server.turns_for(its_client)) {
+    Turn(Server& the_server, Client& its_client, Turns& taken)
+        : server(the_server), client(its_client), turns(taken) {
       client.working = true;
     }
     ~Turn() {
@@ -434,8 +479,9 @@ Response Listener::Server::in_its_turn(Client& client) {
     Client& client;
     Turns& turns;
   };
-  const Turn turn(*this, client);
+  const Turn turn(*this, client, turns);
   const Clock::time_point start = Clock::now();
+  const Counted counted(use_, client.party);
   const WorkLimit limit([this, &client, start, before = processor_time()] {
     return is_over(client, start, processor_time() - before);
   });
@@ -463,7 +509,7 @@ void Listener::Server::pass_turn(Turns& turns, const std::string& party) noexcep
     next = until_memory([&] { return turns.pass(next->party); });
   }
   if (next) {
-    wake({next->who, 0, &turns, std::move(next->party)});
+    wake(&turns == &low_.turns ? low_ : normal_, {next->who, 0, &turns, std::move(next->party)});
   }
 }
 
@@ -480,24 +526,24 @@ bool Listener::Server::refuse(const ClientPointer& client, const Head& head, boo
   return deliver(client, gateway_.refuse(refused, client->remote));
 }
 
-void Listener::Server::wake(const Wake& wake) noexcept {
+void Listener::Server::wake(Lane& lane, const Wake& wake) noexcept {
   until_memory([&] {
-    const std::lock_guard guard(wakes_mutex_);
-    wakes_.push_back(wake);
+    const std::lock_guard guard(lane.mutex);
+    lane.wakes.push_back(wake);
   });
-  wakes_ready_.ring();
+  lane.wakes_ready.ring();
 }
 
-void Listener::Server::take_wake() {
-  wakes_ready_.silence();
+void Listener::Server::take_wake(Lane& lane) {
+  lane.wakes_ready.silence();
   Wake wake;
   {
-    const std::lock_guard guard(wakes_mutex_);
-    if (wakes_.empty()) {
+    const std::lock_guard guard(lane.mutex);
+    if (lane.wakes.empty()) {
       return;
     }
-    wake = std::move(wakes_.front());
-    wakes_.pop_front();
+    wake = std::move(lane.wakes.front());
+    lane.wakes.pop_front();
   }
   woken(wake);
 }
@@ -511,13 +557,16 @@ void Listener::Server::woken(const Wake& wake) {
   if (wake.turns != nullptr && client->phase != Phase::in_row) {  // the client left in the meantime
     return pass_turn(*wake.turns, wake.party);
   }
+  if (wake.turns == nullptr && !is_low && gives_way(*client)) {
+    return this->wake(low_, wake);
+  }
   with_memory(client, [&] { resume(client, wake); });
 }
 
 /// Continues with a client that waited for its turn or for an event.
 void Listener::Server::resume(const ClientPointer& client, const Wake& wake) {
   if (wake.turns != nullptr) {
-    if (work_on(client)) {
+    if (work_on(client, *wake.turns)) {
       read_and_serve(client);
     }
     return;

@@ -60,7 +60,7 @@ bool Listener::Server::defer(const ClientPointer& client, Deferred deferred) {
   client->work = std::move(deferred.resume);
   deferred.arm([weak = weak_from_this(), wake = Wake{client->id, ++client->deferral}] {
     if (const auto server = weak.lock()) {
-      server->wake(wake);
+      Server::wake(server->normal_, wake);
     }
   });
   rearm(*client, end_of(*client));
@@ -86,7 +86,7 @@ bool Listener::Server::begin_stream(const ClientPointer& client, const Response&
                                              const std::string& piece, bool last) {
     const bool taken = outbox->put(piece, last);
     if (const auto server = weak.lock()) {
-      server->wake({id});
+      Server::wake(server->normal_, {id});
     }
     return taken;
   });
@@ -161,6 +161,7 @@ bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t e
 /// Appends a piece of the body. Returns false when the body cannot be completed.
 bool Listener::Server::append_piece(const ClientPointer& client) {
   try {
+    const Counted counted(use_, client->party);
     std::string piece;
     const StatusOr<bool> more = client->rest->append_next(piece);
     if (!more.ok()) {

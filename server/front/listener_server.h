@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -25,6 +26,7 @@
 #include "server/front/shares.h"
 #include "server/front/turns.h"
 #include "server/jobs/memory.h"
+#include "server/jobs/recent_use.h"
 #include "solver/numeric/work_limit.h"
 
 namespace snapthrough::server::http {
@@ -42,6 +44,30 @@ inline constexpr std::chrono::milliseconds kSweep{100};
 /// Events that tell that a client has ended its sending side. Once it was asked whether it still waits, only
 /// a reset tells more, which epoll always reports.
 inline std::uint32_t end_of(const Client& client) { return client.asked ? 0U : std::uint32_t{EPOLLRDHUP}; }
+
+/// Processor time that the calling thread has used.
+inline std::chrono::nanoseconds processor_time() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+/// Counts processor time that the calling thread uses for a party.
+class Counted {
+ public:
+  Counted(RecentUse& use, std::string party)
+      : use_(use), party_(std::move(party)), before_(processor_time()) {}
+  ~Counted() { use_.add(party_, processor_time() - before_); }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+  Counted(Counted&&) = delete;
+  Counted& operator=(Counted&&) = delete;
+
+ private:
+  RecentUse& use_;
+  const std::string party_;
+  const std::chrono::nanoseconds before_;
+};
 
 /// Repeats what needs little memory, and must not fail, until there is memory for it.
 template <class Use>
@@ -63,6 +89,17 @@ struct Wake {
   std::string party = {};  ///< whose turn it is
 };
 
+/// Connections, events and turns that threads of one priority share.
+struct Lane {
+  Lane(int count, int of_one_party) : epoll(::epoll_create1(EPOLL_CLOEXEC)), turns(count, of_one_party) {}
+
+  Descriptor epoll;
+  Turns turns;  ///< turns to compute responses
+  PollBell wakes_ready{true};
+  std::mutex mutex;  ///< guards `wakes`
+  std::deque<Wake> wakes;
+};
+
 class Listener::Server final : public std::enable_shared_from_this<Listener::Server> {
  public:
   Server(ListenerOptions options, Gateway& gateway);
@@ -74,7 +111,7 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   [[nodiscard]] ListenerLoad load() const;
 
  private:
-  void work();
+  void work(Lane& lane);
   void keep();
   void accept_all();
   void admit(Descriptor socket, const std::string& remote);
@@ -92,13 +129,12 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   std::optional<Response> judge_head(Client& client, const Head& head);
   bool answer(const ClientPointer& client, Received received);
   bool in_turn(const ClientPointer& client, std::function<Response()> work, std::size_t bytes);
-  bool work_on(const ClientPointer& client);
-  Response in_its_turn(Client& client);
+  bool work_on(const ClientPointer& client, Turns& turns);
+  Response in_its_turn(Client& client, Turns& turns);
   [[nodiscard]] std::optional<WorkEnd> is_over(Client& client, Clock::time_point start,
                                                std::chrono::nanoseconds used) const;
-  [[nodiscard]] Turns& turns_for(const Client& client) {
-    return client.work_bytes > LargeDocument::kSmall ? large_turns_ : turns_;
-  }
+  [[nodiscard]] bool gives_way(const Client& client) const;
+  [[nodiscard]] Turns& turns_for(const Client& client);
   void pass_turn(Turns& turns, const std::string& party) noexcept;
   bool refuse(const ClientPointer& client, const Head& head, bool linger);
   bool deliver(const ClientPointer& client, Response response);
@@ -113,31 +149,23 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   void pump(const ClientPointer& client);
   void woken(const Wake& wake);
   void resume(const ClientPointer& client, const Wake& wake);
-  void wake(const Wake& wake) noexcept;
-  void take_wake();
+  static void wake(Lane& lane, const Wake& wake) noexcept;
+  void take_wake(Lane& lane);
 
   void drop(Client& client);
   void name_party(Client& client, std::string party);
   bool account(Client& client);
   bool add_held(const Client& client, std::size_t more, std::size_t less);
-  void rearm(const Client& client, std::uint32_t events) const {
-    watch(client.socket, client.id, events | EPOLLONESHOT, EPOLL_CTL_MOD);
-  }
-  void watch(int descriptor, std::uint64_t name, std::uint32_t events, int operation) const {
-    epoll_event event{};
-    event.events = events;
-    event.data.u64 = name;
-    ::epoll_ctl(epoll_.get(), operation, descriptor, &event);
-  }
+  void rearm(Client& client, std::uint32_t events);
   [[nodiscard]] ClientPointer find(std::uint64_t id) const;
 
   const ListenerOptions options_;
   Gateway& gateway_;
-  Turns turns_;        ///< turns to compute responses
-  Turns large_turns_;  ///< turns for large bodies, which are worked on one at a time
-  Descriptor epoll_;
+  Lane normal_;
+  Lane low_;           ///< for parties that use much processor time: its threads have a low priority
+  Turns large_turns_;  ///< turns for large bodies, which are worked on one at a time, at normal priority
+  RecentUse use_;
   Descriptor listening_;
-  PollBell wakes_ready_{true};
   PollBell end_;
   int port_ = 0;
   std::atomic<bool> draining_ = false;  ///< responses close their connections
@@ -151,9 +179,6 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   std::atomic<std::size_t> buffered_ = 0;
   std::atomic<std::int64_t> without_memory_ = 0;
   Shares shares_;
-
-  std::mutex wakes_mutex_;
-  std::deque<Wake> wakes_;
 
   std::thread keeper_;
   std::vector<std::thread> threads_;

@@ -127,8 +127,11 @@ struct Submitted {
   std::string id;
 };
 
-/// Owners whose work a worker may take: of all, or of those for whom nothing of the kind (jobs, sweeps) runs.
-enum class OwnersInTurn { all, idle };
+/// Owners whose work a worker may take.
+struct OwnersInTurn {
+  bool idle = false;                     ///< only those for whom nothing of the kind (jobs, sweeps) runs
+  std::vector<std::string> except = {};  ///< with `idle`: their work is left to other workers
+};
 
 /// @brief Claim of a worker on a job. Stores refuse writes under a claim whose attempt is not the job's: the
 /// job was given to another worker since.
@@ -137,6 +140,7 @@ struct Claim {
   int attempt = 0;
   std::string document = {};  ///< the request
   Time created = {};          ///< time of submission by the clock of the caller that claims
+  std::string owner = {};     ///< see Job
 };
 
 /// Result of a job: the document that is served, and its parts for queries.

@@ -119,7 +119,7 @@ StatusOr<Submission> JobService::submit(const Order& order) {
 StatusOr<Submission> JobService::store_new(const Order& order, NewJob job) {
   job.quotas = limits_.quotas;
   std::promise<bool> stored;
-  Handoff handoff{{job.id, 1, job.document, job.created}, stored.get_future().share()};
+  Handoff handoff{{job.id, 1, job.document, job.created, job.owner}, stored.get_future().share()};
   const Lease lease = context_.new_lease();
   // A job that may be a repetition, have a stored result or be refused for its bytes is not solved before it
   // is stored.

@@ -156,7 +156,7 @@ bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const W
 
 /// @param stored becomes ready when the store contains the job; null: the store contains the job
 void run_job(const Claim& claim, const std::shared_future<bool>* stored, const WorkerContext& context,
-             Runner& runner, const std::stop_token& stop) {
+             Runners& runners, const std::stop_token& stop) {
   log_job(context.log, claim, JobState::running);
   if (claim.attempt == 1) {
     // the wall clock may have been set back since
@@ -166,7 +166,9 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
   const double begun = context.environment.monotonic_seconds();
   ActiveJobs::Entry entry(context.active, claim, steady_time(context.environment));
   const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
-  JobRun outcome = runner.run_job(claim.document, told_hooks(claim, context.progress, entry.token()));
+  JobRun outcome =
+      runners.of(claim.owner).run_job(claim.document, told_hooks(claim, context.progress, entry.token()));
+  runners.note(claim.owner, outcome.usage, context.environment.monotonic_seconds() - begun);
   context.progress.erase(claim.id);
   if (stored != nullptr && !stored->get()) {
     return;
@@ -188,7 +190,7 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
 }
 
 /// Claims the next accepted job; nothing when there is none or the store fails.
-std::optional<Claim> claim_one(const WorkerContext& context, OwnersInTurn owners) {
+std::optional<Claim> claim_one(const WorkerContext& context, const OwnersInTurn& owners) {
   WaitingCount::Change change(context.waiting);
   StatusOr<std::optional<Claim>> claim =
       context.store.claim(context.new_lease(), context.environment.now(), owners);
@@ -202,36 +204,16 @@ std::optional<Claim> claim_one(const WorkerContext& context, OwnersInTurn owners
   return *std::move(claim);
 }
 
-/// Runner that is made for its first task.
-class RunnerOnDemand final : public Runner {
- public:
-  explicit RunnerOnDemand(const RunnerFactory& make) : make_(make) {}
-  JobRun run_job(std::string_view request, const Hooks& hooks) override {
-    return made().run_job(request, hooks);
-  }
-  WorkUsage run_units(const UnitTask& task) override { return made().run_units(task); }
-
- private:
-  Runner& made() {
-    if (!runner_) {
-      runner_ = make_();
-    }
-    return *runner_;
-  }
-
-  const RunnerFactory& make_;
-  std::unique_ptr<Runner> runner_;
-};
-
 }  // namespace
 
-void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop) {
-  run_job(claim, nullptr, context, runner, stop);
+void work_on(const Claim& claim, const WorkerContext& context, Runners& runners,
+             const std::stop_token& stop) {
+  run_job(claim, nullptr, context, runners, stop);
 }
 
-void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
+void work_on(const Handoff& handoff, const WorkerContext& context, Runners& runners,
              const std::stop_token& stop) {
-  run_job(handoff.claim, &handoff.stored, context, runner, stop);
+  run_job(handoff.claim, &handoff.stored, context, runners, stop);
 }
 
 WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory make)
@@ -243,7 +225,7 @@ WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory 
       threads_.emplace_back([this, i] { run(i, stop_.get_token()); });
     }
     for (int i = 0; threads > 0 && i < context_.limits.spare_workers; ++i) {
-      threads_.emplace_back([this] { run_spare(stop_.get_token()); });
+      threads_.emplace_back([this, i] { run_spare(i % 2 == 0, stop_.get_token()); });
     }
   } catch (...) {
     stop();  // the system has no thread left
@@ -262,10 +244,10 @@ void WorkerPool::stop() {
   }
 }
 
-bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop, OwnersInTurn owners) {
+bool WorkerPool::claim_and_work(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners) {
   const std::optional<Claim> claim = claim_one(context_, owners);
   if (claim) {
-    work_on(*claim, context_, runner, stop);
+    work_on(*claim, context_, runners, stop);
   }
   return claim.has_value();
 }
@@ -287,23 +269,25 @@ void WorkerPool::wait_as_spare(std::uint64_t& seen, const std::stop_token& stop)
   pause(stop, context_.limits.spare_after);
 }
 
-void WorkerPool::run_spare(const std::stop_token& stop) {
-  RunnerOnDemand runner(make_);
+/// @param for_all also for owners who use much processor time
+void WorkerPool::run_spare(bool for_all, const std::stop_token& stop) {
+  Runners runners(make_, use_);
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
     wait_as_spare(seen, stop);
     bool worked = true;
     while (worked && are_held() && !stop.stop_requested()) {
-      worked = context_.waiting.value() > 0 && claim_and_work(runner, stop, OwnersInTurn::idle);
-      worked = context_.sweeps.do_next(runner, stop, OwnersInTurn::idle) || worked;
+      const OwnersInTurn owners{true, for_all ? std::vector<std::string>() : use_.of_much()};
+      worked = context_.waiting.value() > 0 && claim_and_work(runners, stop, owners);
+      worked = context_.sweeps.do_next(runners, stop, owners) || worked;
     }
   }
 }
 
 void WorkerPool::run(std::size_t number, const std::stop_token& stop) {
   std::atomic<double>& begun = begun_[number];
-  const std::unique_ptr<Runner> own = make_();
-  Runner& runner = *own;
+  Runners runners(make_, use_);
+  runners.prepare();
   std::uint64_t seen = 0;
   const auto nap = context_.store.neighbours() == nullptr ? kLongestNap : kLongestSharedNap;
   while (!stop.stop_requested()) {
@@ -311,9 +295,9 @@ void WorkerPool::run(std::size_t number, const std::stop_token& stop) {
     // is not queried for jobs unless some are known to wait.
     begun = now();
     const bool waited = context_.waiting.value() > 0;
-    const bool worked = waited && claim_and_work(runner, stop);
-    if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
-        (!waited && claim_and_work(runner, stop))) {
+    const bool worked = waited && claim_and_work(runners, stop);
+    if ((!stop.stop_requested() && context_.sweeps.do_next(runners, stop)) || worked ||
+        (!waited && claim_and_work(runners, stop))) {
       continue;
     }
     // Jobs handed over directly have priority over stored ones, so that no worker idles while jobs wait.
@@ -321,7 +305,7 @@ void WorkerPool::run(std::size_t number, const std::stop_token& stop) {
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
       begun = now();
-      work_on(*handoff, context_, runner, stop);
+      work_on(*handoff, context_, runners, stop);
       begun = kWaits;
       if (context_.waiting.value() > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
         break;

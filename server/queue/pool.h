@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "server/queue/worker_context.h"
-#include "server/worker/runner.h"
+#include "server/worker/runners.h"
 
 namespace snapthrough::server {
 
@@ -20,18 +20,19 @@ namespace snapthrough::server {
 /// A numerical failure or an exception fails the job; a stop of the service requeues it. A claim that was
 /// lost in the meantime changes nothing. While the store is not writable, the outcome is kept and storing is
 /// repeated as long as the lease may hold.
-void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop);
+void work_on(const Claim& claim, const WorkerContext& context, Runners& runners, const std::stop_token& stop);
 
 /// Solves a job that is still being stored, and stores its outcome.
-void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
+void work_on(const Handoff& handoff, const WorkerContext& context, Runners& runners,
              const std::stop_token& stop);
 
 /// @brief A fixed number of worker threads, and spare ones. Thread-safe; the constructor's arguments must
 /// outlive the object.
 ///
 /// While all workers have been at the same work for JobLimits::spare_after, spare ones work for owners for
-/// whom nothing of the kind (jobs, sweeps) runs: the long work of some owners does not stop the others. A
-/// spare worker has a runner from its first work on.
+/// whom nothing of the kind (jobs, sweeps) runs: the long work of some owners does not stop the others. Half
+/// of them leave the work of owners who use much processor time to the rest. A spare worker has a runner from
+/// its first work on.
 class WorkerPool {
  public:
   /// @param make makes the runner of a thread; called once on each
@@ -48,10 +49,10 @@ class WorkerPool {
 
  private:
   void run(std::size_t number, const std::stop_token& stop);
-  void run_spare(const std::stop_token& stop);
+  void run_spare(bool for_all, const std::stop_token& stop);
   void wait_as_spare(std::uint64_t& seen, const std::stop_token& stop);
   [[nodiscard]] bool is_left() const;
-  bool claim_and_work(Runner& runner, const std::stop_token& stop, OwnersInTurn owners = OwnersInTurn::all);
+  bool claim_and_work(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners = {});
   [[nodiscard]] bool are_held() const;
   [[nodiscard]] double now() const { return context_.environment.monotonic_seconds(); }
 
@@ -59,6 +60,7 @@ class WorkerPool {
   RunnerFactory make_;
   /// Time of the monotonic clock at which each worker began its present work; infinite: it waits for some.
   std::vector<std::atomic<double>> begun_;
+  RecentUse use_;       ///< processor time that computing for each owner took
   std::mutex on_duty_;  ///< one spare worker at a time looks for work
   /// One for all threads: none takes what another gives back when the pool stops.
   std::stop_source stop_;

@@ -83,9 +83,9 @@ class Store {
   /// oldest job of an owner comes first. The claim survives the death of the process; after that of the
   /// machine the job may be accepted again.
   /// @param owners idle: those for whom no job runs in this store
-  virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, OwnersInTurn owners) = 0;
+  virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, const OwnersInTurn& owners) = 0;
   StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) {
-    return claim(lease, now, OwnersInTurn::all);
+    return claim(lease, now, OwnersInTurn{});
   }
 
   /// Renews the leases of claims that hold; returns the ids of the others.

@@ -93,10 +93,11 @@ bool SweepScheduler::is_idle(const std::string& owner) const {
   });
 }
 
-std::optional<SweepTurn> SweepScheduler::next(double seconds, OwnersInTurn owners) {
+std::optional<SweepTurn> SweepScheduler::next(double seconds, const OwnersInTurn& owners) {
   const std::lock_guard guard(mutex_);
   const auto waits = [&](const ActiveSweep& sweep) {
-    return !sweep.aside_ && !sweep.exhausted_ && (owners == OwnersInTurn::all || is_idle(sweep.owner));
+    return !sweep.aside_ && !sweep.exhausted_ && (!owners.idle || is_idle(sweep.owner)) &&
+           std::find(owners.except.begin(), owners.except.end(), sweep.owner) == owners.except.end();
   };
   const auto order = [&](const auto& sweep) {
     return std::tuple(!waits(*sweep), served(sweep->owner), sweep->served_);

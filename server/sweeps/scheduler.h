@@ -77,8 +77,9 @@ class SweepScheduler {
   [[nodiscard]] std::size_t count() const;
 
   /// @brief Turn of the next sweep that may have units left, for a chunk of about `seconds`.
-  /// @param owners idle: those of whose sweeps no worker of this process has a chunk
-  std::optional<SweepTurn> next(double seconds, OwnersInTurn owners = OwnersInTurn::all);
+  /// @param owners whose sweeps may be taken; idle are those of whose sweeps no worker of this process has a
+  /// chunk
+  std::optional<SweepTurn> next(double seconds, const OwnersInTurn& owners = {});
   /// Notes that the store had no units for that turn.
   void exhausted(const SweepTurn& turn);
   /// Notes that units of any sweep may have come back; removes exhausted sweeps without a worker in this

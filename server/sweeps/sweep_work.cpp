@@ -249,7 +249,7 @@ void SweepWork::leave(const std::string& id, const Finding& finding) {
                     {"detail", std::string_view(why)}});
 }
 
-std::optional<Chunk> SweepWork::take(OwnersInTurn owners) {
+std::optional<Chunk> SweepWork::take(const OwnersInTurn& owners) {
   if (unloaded_) {
     load();
   }
@@ -278,7 +278,7 @@ std::optional<Chunk> SweepWork::take(OwnersInTurn owners) {
   return std::nullopt;
 }
 
-bool SweepWork::do_next(Runner& runner, const std::stop_token& stop, OwnersInTurn owners) {
+bool SweepWork::do_next(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners) {
   const std::optional<Chunk> chunk = take(owners);
   if (!chunk) {
     return false;
@@ -290,8 +290,10 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop, OwnersInTur
   Work work;
   work.pending = pending_units(*chunk, world_.store);
   look_up(*chunk, world_, work);
-  const std::size_t computed = compute(*chunk, scheduler_.chunk_seconds(), world_, runner, watch, work);
+  const std::size_t computed =
+      compute(*chunk, scheduler_.chunk_seconds(), world_, runners.of(chunk->sweep->owner), watch, work);
   const double seconds = world_.environment.monotonic_seconds() - start;
+  runners.note(chunk->sweep->owner, work.usage, seconds);
   const std::uint64_t done = chunk->claim.units.count - (work.pending.size() - computed);
   Status status = settle(*chunk, work.rows, work.usage, done, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {

@@ -23,7 +23,7 @@
 #include "server/log/log.h"
 #include "server/store/sweep_store.h"
 #include "server/sweeps/scheduler.h"
-#include "server/worker/runner.h"
+#include "server/worker/runners.h"
 
 namespace snapthrough::server {
 
@@ -58,7 +58,7 @@ class SweepWork {
   /// error. A chunk ends early when jobs wait, when it takes long, or when the service stops; units without
   /// rows are given out again. While the store can't be written, the chunk waits and tries to store its rows
   /// again.
-  bool do_next(Runner& runner, const std::stop_token& stop, OwnersInTurn owners = OwnersInTurn::all);
+  bool do_next(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners = {});
   /// Whether do_next() may find something.
   [[nodiscard]] bool is_left() const { return scheduler_.has_units() || unloaded_; }
   /// Announces new units: wakes a worker of this process and, by the bell, other processes.
@@ -83,7 +83,7 @@ class SweepWork {
   void load();
   bool load_one(const std::string& id);
   void leave(const std::string& id, const Finding& finding);
-  std::optional<Chunk> take(OwnersInTurn owners);
+  std::optional<Chunk> take(const OwnersInTurn& owners);
   /// Stores rows and ends the chunk. @param done units that need no more work
   Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, const WorkUsage& usage,
                 std::uint64_t done, double seconds);

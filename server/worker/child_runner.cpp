@@ -14,11 +14,13 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <stop_token>
+#include <system_error>
 #include <utility>
 
 #include "server/worker/frame.h"
@@ -49,6 +51,13 @@ constexpr std::chrono::milliseconds kStartPause{200};
 constexpr std::size_t kMostSweeps = 16;
 
 }  // namespace
+
+std::string own_executable() {
+  constexpr const char* kSelf = "/proc/self/exe";
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink(kSelf, error);
+  return program.filename().string().starts_with("ld-linux") ? program_invocation_name : kSelf;
+}
 
 /// Calls the hooks for a news frame of a running analysis. @throws std::runtime_error for a frame that is too
 /// large or malformed
@@ -148,6 +157,21 @@ void ChildRunner::start() {
   ++counters_.started;
   process_ = process;
   task_ = 0;
+  if (gives_way_) {
+    (void)lower_priority();
+  }
+}
+
+void ChildRunner::give_way() {
+  gives_way_ = true;
+  if (process_ != 0) {
+    (void)lower_priority();
+  }
+}
+
+/// Gives the process a lower priority, which it keeps; returns whether the system did it.
+bool ChildRunner::lower_priority() const {
+  return ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), kGivesWay) == 0;
 }
 
 /// Waits until the system starts a process, which is not the fault of a task; false when `stop` is requested
@@ -248,7 +272,7 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
   const std::stop_callback on_stop(watch.stop, [this] { alarm_.ring(); });
   std::optional<Clock::time_point> deadline;
   bool told_enough = false;
-  bool gives_way = false;
+  bool gives_way = gives_way_;
   Clock::time_point begin = Clock::now();
   for (;;) {
     std::array<pollfd, 2> fds{pollfd{socket_, POLLIN, 0}, pollfd{alarm_.descriptor(), POLLIN, 0}};
@@ -262,7 +286,7 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
       wait = kShort;
     }
     if (!gives_way && Clock::now() >= begin + kShort) {
-      gives_way = ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), kGivesWay) == 0;
+      gives_way = lower_priority();
       begin = Clock::now();
     }
     const int ready = ::poll(fds.data(), deadline ? 1 : 2, wait ? static_cast<int>(wait->count()) : -1);
@@ -272,7 +296,7 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
         return end_of_process(false);
       }
       if (*last) {
-        if (gives_way) {
+        if (gives_way && !gives_way_) {
           retire();
         }
         return End::answered;

@@ -28,11 +28,15 @@ struct RunnerCounters {
   std::atomic<std::int64_t> without_process = 0;
 };
 
+/// @brief Returns the path from which this program can be started again: /proc/self/exe, which stays when the
+/// file is replaced, or the script that started it with the loader of an archive (scripts/archive.sh).
+[[nodiscard]] std::string own_executable();
+
 struct ChildRunnerOptions {
-  std::string executable;                 ///< path of the program snapthrough
-  std::int64_t memory = 0;                ///< limit of one analysis in bytes
-  int max_crashes = 1;                    ///< crashes after which an analysis fails, >= 1
-  std::chrono::milliseconds grace{2000};  ///< from the stop request to the kill
+  std::string executable = own_executable();  ///< path of the program snapthrough
+  std::int64_t memory = 0;                    ///< limit of one analysis in bytes
+  int max_crashes = 1;                        ///< crashes after which an analysis fails, >= 1
+  std::chrono::milliseconds grace{2000};      ///< from the stop request to the kill
 };
 
 /// @brief Lets a child process compute, and replaces it when it ends. The process ends with the thread that
@@ -45,6 +49,7 @@ class ChildRunner final : public Runner {
 
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
   WorkUsage run_units(const UnitTask& task) override;
+  void give_way() override;
 
   /// Returns the id of the process, for tests that damage it; 0: there is none.
   [[nodiscard]] pid_t process() const { return process_; }
@@ -55,6 +60,7 @@ class ChildRunner final : public Runner {
   struct Watch;
 
   void start();
+  [[nodiscard]] bool lower_priority() const;
   void replace();
   [[nodiscard]] bool has_process(const std::stop_token& stop);
   void close_ends() const;
@@ -74,6 +80,7 @@ class ChildRunner final : public Runner {
 
   const ChildRunnerOptions options_;
   RunnerCounters& counters_;
+  bool gives_way_ = false;  ///< its processes have a low priority from their start
   pid_t process_ = 0;
   int socket_ = -1;
   int control_ = -1;
@@ -85,7 +92,7 @@ class ChildRunner final : public Runner {
   std::uint64_t next_sweep_ = 0;
 };
 
-/// @brief Returns the factory of a service. @param executable empty: this program
+/// Returns a factory of runners with processes of their own.
 [[nodiscard]] RunnerFactory child_runners(ChildRunnerOptions options, RunnerCounters& counters);
 
 }  // namespace snapthrough::server

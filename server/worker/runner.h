@@ -56,6 +56,8 @@ class Runner {
   /// Computes units; ends early when `enough` returns true, or after "cancelled" outcomes.
   /// @return what that took; the part of a process that died is not known
   virtual WorkUsage run_units(const UnitTask& task) = 0;
+  /// Lets all later tasks have a low priority, if what computes has a priority of its own.
+  virtual void give_way() {}
 };
 
 /// Called once by each worker, on the worker's thread.

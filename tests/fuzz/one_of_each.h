@@ -132,7 +132,7 @@ class FuzzedStore final : public Store {
   }
   StatusOr<std::vector<UsedKey>> keys(std::string_view) override { return std::vector<UsedKey>(); }
   Status add_key(std::string_view, const UsedKey&) override { return store_is_full(); }
-  StatusOr<std::optional<Claim>> claim(const Lease&, Time, OwnersInTurn) override {
+  StatusOr<std::optional<Claim>> claim(const Lease&, Time, const OwnersInTurn&) override {
     return std::optional<Claim>();
   }
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {

@@ -27,7 +27,7 @@ class ClaimTurns : public StoreTest {
     }
   }
   /// Ids of the jobs that are claimed, until there are none or `most` have been.
-  std::vector<std::string> claimed(OwnersInTurn owners, std::size_t most = 100) {
+  std::vector<std::string> claimed(const OwnersInTurn& owners, std::size_t most = 100) {
     std::vector<std::string> ids;
     while (ids.size() < most) {
       const auto claim = store_->claim(kLease, at_second(1), owners);
@@ -42,15 +42,21 @@ class ClaimTurns : public StoreTest {
 
 TEST_P(ClaimTurns, OwnersTakeTurns) {
   submit({"ann", "ann", "ann", "bob", "bob", "cid"});
-  EXPECT_THAT(claimed(OwnersInTurn::all), ElementsAre(id_number(0), id_number(3), id_number(5), id_number(1),
-                                                      id_number(4), id_number(2)));
+  EXPECT_THAT(claimed(OwnersInTurn{}), ElementsAre(id_number(0), id_number(3), id_number(5), id_number(1),
+                                                   id_number(4), id_number(2)));
 }
 
 TEST_P(ClaimTurns, OwnersWithoutARunningJobCanHaveTheirTurnAlone) {
   submit({"ann", "ann", "bob", "bob", "cid"});
-  EXPECT_THAT(claimed(OwnersInTurn::all, 1), ElementsAre(id_number(0)));
-  EXPECT_THAT(claimed(OwnersInTurn::idle), ElementsAre(id_number(2), id_number(4)));
-  EXPECT_THAT(claimed(OwnersInTurn::all), ElementsAre(id_number(1), id_number(3))) << "the others are left";
+  EXPECT_THAT(claimed(OwnersInTurn{}, 1), ElementsAre(id_number(0)));
+  EXPECT_THAT(claimed(OwnersInTurn{true}), ElementsAre(id_number(2), id_number(4)));
+  EXPECT_THAT(claimed(OwnersInTurn{}), ElementsAre(id_number(1), id_number(3))) << "the others are left";
+}
+
+TEST_P(ClaimTurns, TheWorkOfSomeOwnersCanBeLeftToOthers) {
+  submit({"ann", "ann", "bob", "cid", "it's"});
+  EXPECT_THAT(claimed({true, {"ann", "it's"}}), ElementsAre(id_number(2), id_number(3)));
+  EXPECT_THAT(claimed({}), ElementsAre(id_number(4), id_number(0), id_number(1)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Drivers, ClaimTurns, testing::ValuesIn(store_drivers()), driver_name);

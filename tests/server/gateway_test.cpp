@@ -28,7 +28,7 @@ class FailingStore : public Store {
   }
   StatusOr<std::vector<UsedKey>> keys(std::string_view) override { return status(); }
   Status add_key(std::string_view, const UsedKey&) override { return status(); }
-  StatusOr<std::optional<Claim>> claim(const Lease&, Time, OwnersInTurn) override { return status(); }
+  StatusOr<std::optional<Claim>> claim(const Lease&, Time, const OwnersInTurn&) override { return status(); }
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {
     return status();
   }

@@ -56,6 +56,22 @@ TEST_F(RunnerTest, AJobWaitsForAProcessThatCannotBeStartedYet) {
   EXPECT_EQ(counters_.without_process, 0);
 }
 
+TEST_F(RunnerTest, OneThatGivesWayHasALowPriorityAndKeepsItsProcess) {
+  const int mine = ::getpriority(PRIO_PROCESS, 0);
+  ChildRunner runner(options(), counters_);
+  ASSERT_TRUE(runner.run_job(column_request(), {}).result.has_value());
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, static_cast<id_t>(runner.process())), mine);
+  runner.give_way();
+  const int low = ::getpriority(PRIO_PROCESS, static_cast<id_t>(runner.process()));
+  EXPECT_GT(low, mine);
+  const pid_t before = runner.process();
+  ASSERT_TRUE(runner.run_job(column_request(), {}).result.has_value());
+  EXPECT_EQ(runner.process(), before);
+  ASSERT_EQ(::kill(before, SIGKILL), 0);
+  ASSERT_TRUE(runner.run_job(column_request(), {}).result.has_value()) << "a new process";
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, static_cast<id_t>(runner.process())), low);
+}
+
 TEST_F(RunnerTest, AJobThatWaitsForAProcessCanBeStopped) {
   const TempDir folder;
   ChildRunnerOptions missing = options();

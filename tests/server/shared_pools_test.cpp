@@ -2,9 +2,15 @@
 /// What all clients share, one party cannot take: time and turns for reading, memory for bodies, streams.
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/server/support/costly.h"
 #include "tests/server/support/eventually.h"
@@ -62,6 +68,33 @@ TEST_F(SharedPools, ReadingEndsAtItsLimit) {
     EXPECT_THAT(reply.body, HasSubstr("too-costly-to-read")) << target;
   }
   EXPECT_EQ(json::parse(get(port(), "/v1/jobs", kAnn).body)["jobs"].size(), 0U);
+}
+
+/// Processor time in s of the threads of this process that have a lower priority than the others.
+double time_of_low_threads() {
+  double ticks = 0.0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "stat");
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+    std::vector<std::string> of_thread((std::istream_iterator<std::string>(fields)), {});
+    if (of_thread.size() > 16 && std::stoi(of_thread[16]) > ::getpriority(PRIO_PROCESS, 0)) {
+      ticks += std::stod(of_thread[11]) + std::stod(of_thread[12]);
+    }
+  }
+  return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+TEST_F(SharedPools, PartiesThatUseMuchAreServedWithALowPriority) {
+  ServiceConfig hasty = keyed();
+  hasty.listener.times.reading = 1500ms;
+  start_with(hasty);
+  EXPECT_EQ(post(port(), "/v1/check", costly_request(), kAnn).status, 422);
+  EXPECT_EQ(time_of_low_threads(), 0.0) << "nobody had used much before";
+  EXPECT_EQ(post(port(), "/v1/check", costly_request(), kBob).status, 422);
+  EXPECT_EQ(time_of_low_threads(), 0.0);
+  EXPECT_EQ(post(port(), "/v1/check", costly_request(), kAnn).status, 422);
+  EXPECT_GT(time_of_low_threads(), 1.0);
 }
 
 TEST_F(SharedPools, OneReadersDocumentsLeaveTurnsToOthersAndDoNotHoldTheEnd) {

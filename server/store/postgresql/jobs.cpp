@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -205,12 +206,15 @@ class PostgresqlStore final : public Store {
   }
 
   using Store::claim;
-  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, OwnersInTurn owners) override {
+  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, const OwnersInTurn& owners) override {
     static const std::string kWaits = may(JobEvent::claim);
     static const std::string kOfAll = take_next_of(kWaits);
-    static const std::string kOfIdle = take_next_of(
+    static const std::string kIdle =
         kWaits +
-        " AND owner NOT IN (SELECT running.owner FROM jobs AS running JOIN job_leases ON job = running.seq)");
+        " AND owner NOT IN (SELECT running.owner FROM jobs AS running JOIN job_leases ON job = running.seq)";
+    static const std::string kOfIdle = take_next_of(kIdle);
+    static const std::string kOfOthers =
+        take_next_of(kIdle + " AND owner NOT IN (SELECT jsonb_array_elements_text($5::jsonb))");
     std::string last;
     {
       const std::lock_guard guard(turn_mutex_);
@@ -218,6 +222,9 @@ class PostgresqlStore final : public Store {
     }
     Parameters wanted;
     wanted.add(last).add(clock_.at(now)).add(lease.worker).add(microseconds(lease.until - now));
+    if (!owners.except.empty()) {
+      wanted.add(nlohmann::json(owners.except).dump());
+    }
     const auto use = [&](std::span<const Rows> all) -> StatusOr<std::optional<Claim>> {
       const Rows& rows = all.front();
       if (rows.empty()) {
@@ -226,10 +233,14 @@ class PostgresqlStore final : public Store {
       const std::lock_guard guard(turn_mutex_);
       last_owner_ = rows[0].text(4);
       const Time created = now - std::chrono::microseconds(rows[0].integer(3));
-      return std::optional(Claim{rows[0].text(0), rows[0].whole(1), rows[0].text(2), created});
+      return std::optional(
+          Claim{rows[0].text(0), rows[0].whole(1), rows[0].text(2), created, rows[0].text(4)});
     };
-    return database_.write_at_once<std::optional<Claim>>(
-        {{owners == OwnersInTurn::all ? kOfAll : kOfIdle, wanted}}, Durability::unsynced, use);
+    return database_.write_at_once<std::optional<Claim>>({{!owners.except.empty() ? kOfOthers
+                                                           : owners.idle          ? kOfIdle
+                                                                                  : kOfAll,
+                                                           wanted}},
+                                                         Durability::unsynced, use);
   }
 
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until, Time now) override {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <cerrno>
 #include <system_error>
@@ -194,20 +195,24 @@ std::string next_of(const std::string& waits) {
 }
 
 /// Finds the oldest accepted job of the next owner, by name, after `last` that has one; sets `last`.
-std::optional<Claim> next_in_turn(const Connection& connection, OwnersInTurn owners, std::string& last,
+std::optional<Claim> next_in_turn(const Connection& connection, const OwnersInTurn& owners, std::string& last,
                                   std::int64_t& row) {
   static const std::string kWaits = may(JobEvent::claim);
   static const std::string kOfAll = next_of(kWaits);
-  static const std::string kOfIdle =
-      next_of(kWaits + " AND owner NOT IN (SELECT owner FROM jobs INDEXED BY jobs_by_lease WHERE " +
-              may(JobEvent::requeue) + ")");
-  Statement found = connection.query(owners == OwnersInTurn::all ? kOfAll : kOfIdle, last);
+  static const std::string kIdle =
+      kWaits + " AND owner NOT IN (SELECT owner FROM jobs INDEXED BY jobs_by_lease WHERE " +
+      may(JobEvent::requeue) + ")";
+  static const std::string kOfIdle = next_of(kIdle);
+  static const std::string kOfOthers = next_of(kIdle + " AND owner NOT IN (SELECT value FROM json_each(?2))");
+  Statement found = owners.except.empty()
+                        ? connection.query(owners.idle ? kOfIdle : kOfAll, last)
+                        : connection.query(kOfOthers, last, nlohmann::json(owners.except).dump());
   if (!found.step()) {
     return std::nullopt;
   }
   row = found.integer(4);
   last = found.text(5);
-  return Claim{found.text(0), found.whole(1) + 1, found.text(2), found.time(3)};
+  return Claim{found.text(0), found.whole(1) + 1, found.text(2), found.time(3), last};
 }
 
 /// A job whose lease has run out.
@@ -285,7 +290,7 @@ class SqliteStore final : public Store {
   }
 
   using Store::claim;
-  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, OwnersInTurn owners) override {
+  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, const OwnersInTurn& owners) override {
     using Outcome = StatusOr<std::optional<Claim>>;
     static const std::string kSql =
         "UPDATE jobs SET " + becomes(JobEvent::claim) +
