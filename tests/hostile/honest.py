@@ -13,6 +13,7 @@ import time
 from service_process import HOST, example
 
 PACE = 0.2       # s between two jobs of an owner
+IDLE = 50        # s after which a connection is not used again: the service closes it after 75 s
 PATIENCE = 60    # s for which a client asks the service to wait
 MOST_WAITING = 400  # jobs of an owner that wait for an answer; a job that is due beyond them is not sent, and counted
 
@@ -46,7 +47,7 @@ class Owner:
         self.requests = [(number, request(number)) for number in numbers]
         self.right = right
         self.results = results
-        self.idle = []     # connections that can be used again
+        self.idle = []     # (monotonic s, connection): can be used again
         self.waiting = 0
         self.lock = threading.Lock()
 
@@ -80,8 +81,7 @@ class Owner:
     def answer(self, number, document):
         headers = {"Authorization": f"Bearer {self.key}", "Content-Type": "application/json", "Cache-Control": "no-cache",
                    "Prefer": f"return=representation, wait={PATIENCE}"}
-        with self.lock:
-            connection = self.idle.pop() if self.idle else http.client.HTTPConnection(HOST, self.port, timeout=PATIENCE + 30)
+        connection = self.connection()
         try:
             connection.request("POST", "/v1/jobs", document, headers)
             response = connection.getresponse()
@@ -90,8 +90,15 @@ class Owner:
             connection.close()
             return type(problem).__name__, None
         with self.lock:
-            self.idle.append(connection)
+            self.idle.append((time.monotonic(), connection))
         return self.judge(number, response.status, body)
+
+    def connection(self):
+        with self.lock:
+            since, connection = self.idle.pop() if self.idle else (0.0, None)
+        if time.monotonic() - since < IDLE:
+            return connection
+        return http.client.HTTPConnection(HOST, self.port, timeout=PATIENCE + 30)
 
     def judge(self, number, status, body):
         if status == 202:
