@@ -236,7 +236,11 @@ WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory 
 WorkerPool::~WorkerPool() { stop(); }
 
 void WorkerPool::stop() {
-  stop_.request_stop();
+  stopping_ = true;
+  {
+    const std::unique_lock claims(claims_);
+    stop_.request_stop();
+  }
   for (std::jthread& thread : threads_) {
     if (thread.joinable()) {
       thread.join();
@@ -245,7 +249,13 @@ void WorkerPool::stop() {
 }
 
 bool WorkerPool::claim_and_work(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners) {
-  const std::optional<Claim> claim = claim_one(context_, owners);
+  std::optional<Claim> claim;
+  {
+    const std::shared_lock claims(claims_);
+    if (!stopping_) {
+      claim = claim_one(context_, owners);
+    }
+  }
   if (claim) {
     work_on(*claim, context_, runners, stop);
   }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <shared_mutex>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -62,8 +63,11 @@ class WorkerPool {
   std::vector<std::atomic<double>> begun_;
   RecentUse use_;       ///< processor time that computing for each owner took
   std::mutex on_duty_;  ///< one spare worker at a time looks for work
-  /// One for all threads: none takes what another gives back when the pool stops.
-  std::stop_source stop_;
+  /// Once stop() has set it, no claim begins; those under way hold `claims_`. So none takes what another gives
+  /// back when the pool stops.
+  std::atomic<bool> stopping_ = false;
+  std::shared_mutex claims_;
+  std::stop_source stop_;  ///< one for all threads
   std::vector<std::jthread> threads_;
 };
 

@@ -199,7 +199,8 @@ class HostileAnalysis : public testing::Test {
     }
     return count;
   }
-  /// Waits until nothing is left over: as many descriptors as before, one living child a worker.
+  /// Waits until nothing is left over: as many descriptors as before, and at most two living children a
+  /// worker, of which one gives way (decision 39).
   void check_nothing_leaked(int before) const {
     const auto dead = [](pid_t process) {
       return read_file("/proc/" + std::to_string(process) + "/stat").find(") Z ") != std::string::npos;
@@ -207,11 +208,12 @@ class HostileAnalysis : public testing::Test {
     std::vector<pid_t> runners;
     EXPECT_TRUE(eventually([&] {
       runners = service_->children();
-      return descriptors() <= before && runners.size() == kWorkers &&
+      return descriptors() <= before && runners.size() >= kWorkers && runners.size() <= 2 * kWorkers &&
              std::none_of(runners.begin(), runners.end(), dead);
     }));
     EXPECT_LE(descriptors(), before);
-    EXPECT_EQ(runners.size(), static_cast<std::size_t>(kWorkers));
+    EXPECT_GE(runners.size(), static_cast<std::size_t>(kWorkers));
+    EXPECT_LE(runners.size(), static_cast<std::size_t>(2 * kWorkers));
     EXPECT_TRUE(std::none_of(runners.begin(), runners.end(), dead)) << "a process that nobody waited for";
   }
   void check_service_is_the_same() const {
