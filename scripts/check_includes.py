@@ -39,7 +39,7 @@ SOLVER_ORDER = """
 API_ORDER = "openapi . plot convert".split()
 SERVER_ORDER = """
     status environment authority digest descriptor bell metrics log jobs store store/sqlite store/postgresql store/open_store
-    worker sweeps queue neighbours maintenance resources front webhooks config key_settings settings service cli main pages_main
+    worker sweeps queue neighbours maintenance resources front webhooks config key_settings settings service mcp cli main pages_main
 """.split()
 ORDERS = {"solver": SOLVER_ORDER, "api": API_ORDER, "server": SERVER_ORDER}
 

@@ -45,11 +45,7 @@ bash scripts/format.sh --check
 step "build ($preset)"
 mkdir -p "build/$preset"
 log="build/$preset/configure.log"
-options=(-DBUILD_TESTING=ON)
-if [ "$preset" = release ] || [ "$preset" = dev ]; then
-  options+=(-DSNAPTHROUGH_BENCH=ON)  # scripts/run.sh leaves tests and benchmarks out of the same folder
-fi
-cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || { cat "$log"; exit 1; }
+cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build "build/$preset" --parallel "$jobs"
 cmake --build "build/$preset" --parallel "$jobs" --target all_verify_interface_header_sets
 
@@ -71,6 +67,9 @@ bash scripts/web_test.sh "build/$preset/snapthrough"
 
 step "Python client"
 bash scripts/clients_python_test.sh "build/$preset"
+
+step "tools for language models, by the protocol's client"
+bash scripts/mcp_test.sh "build/$preset/snapthrough"
 
 step "WebAssembly, in Node"
 if [ "$preset" = release ]; then

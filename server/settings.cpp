@@ -37,7 +37,8 @@ Setting whole(std::string name, std::string help, Field field) {
           },
           [field](const ServiceConfig& config) {
             return std::to_string(field(const_cast<ServiceConfig&>(config)));  // only read
-          }};
+          },
+          "INT"};
 }
 
 /// Returns a setting that is a duration in whole units of `Duration`.
@@ -55,7 +56,8 @@ Setting duration(std::string name, std::string help, Field field) {
           },
           [field](const ServiceConfig& config) {
             return std::to_string(field(const_cast<ServiceConfig&>(config)).count());  // only read
-          }};
+          },
+          "INT"};
 }
 
 std::string address_text(const std::string& host, int port) {
@@ -74,7 +76,8 @@ Setting listen_setting() {
         std::tie(config.listener.host, config.listener.port) = *address;
         return std::nullopt;
       },
-      [](const ServiceConfig& config) { return address_text(config.listener.host, config.listener.port); }};
+      [](const ServiceConfig& config) { return address_text(config.listener.host, config.listener.port); },
+      "HOST:PORT"};
 }
 
 Setting observe_setting() {
@@ -86,7 +89,8 @@ Setting observe_setting() {
           },
           [](const ServiceConfig& config) {
             return config.observe ? address_text(config.observe->first, config.observe->second) : "";
-          }};
+          },
+          "HOST:PORT"};
 }
 
 Setting store_setting() {
@@ -98,12 +102,12 @@ Setting store_setting() {
         config.store_path = text;
         return std::nullopt;
       },
-      [](const ServiceConfig& config) { return shown_location(config.store_path); }};
+      [](const ServiceConfig& config) { return shown_location(config.store_path); }, "FILE|URL"};
 }
 
-/// Returns a setting that is a text.
+/// Returns a setting that is a text. @param type what help shows in place of the value
 template <class Field>
-Setting text(std::string name, std::string help, Field field) {
+Setting text(std::string name, std::string help, std::string type, Field field) {
   return {std::move(name), std::move(help),
           [field](ServiceConfig& config, const std::string& value) -> Mistake {
             field(config) = value;
@@ -111,7 +115,8 @@ Setting text(std::string name, std::string help, Field field) {
           },
           [field](const ServiceConfig& config) {
             return field(const_cast<ServiceConfig&>(config));  // only read
-          }};
+          },
+          std::move(type)};
 }
 
 /// Returns a setting that is a list of texts, separated by commas.
@@ -132,7 +137,8 @@ Setting text_list(std::string name, std::string help, Field field) {
               text += (text.empty() ? "" : ",") + entry;
             }
             return text;
-          }};
+          },
+          "LIST"};
 }
 
 constexpr std::array kLevels{std::pair{LogLevel::debug, "debug"}, std::pair{LogLevel::info, "info"},
@@ -154,7 +160,8 @@ Setting log_level_setting() {
               return level.first == config.log_level;
             });
             return std::string(row->second);
-          }};
+          },
+          "LEVEL"};
 }
 
 std::vector<Setting> front_settings() {
@@ -201,12 +208,12 @@ std::vector<Setting> front_settings() {
                 "Hosts, host[:port], that may be told of the end of jobs, with commas between; none: refused",
                 [](ServiceConfig& c) -> std::vector<std::string>& { return c.jobs.callback_hosts; }),
       text("callback_secret_file", "File with the secret that callbacks are signed with: whsec_ and base64",
-           [](ServiceConfig& c) -> std::string& { return c.callback_secret_file; }),
+           "FILE", [](ServiceConfig& c) -> std::string& { return c.callback_secret_file; }),
       text("web", "The page at /: built-in, none (as --no-web), or a folder that is read at every request",
-           [](ServiceConfig& c) -> std::string& { return c.web; }),
+           "built-in|none|FOLDER", [](ServiceConfig& c) -> std::string& { return c.web; }),
       text("hops_folder",
            "Folder with a sweep document NAME.json for each component of Grasshopper; empty: built-in ones",
-           [](ServiceConfig& c) -> std::string& { return c.hops_folder; }),
+           "FOLDER", [](ServiceConfig& c) -> std::string& { return c.hops_folder; }),
       log_level_setting(),
   };
 }

@@ -22,6 +22,7 @@ struct Setting {
   std::function<std::optional<std::string>(ServiceConfig&, const std::string&)> set;
   /// Returns the value in the format of set().
   std::function<std::string(const ServiceConfig&)> get;
+  std::string type = "TEXT";  ///< what help shows in place of the value
 };
 
 /// Returns all settings except keys, which only the file can have.

@@ -18,12 +18,48 @@ const Json& published() {
   return document;
 }
 
+constexpr std::string_view kSchemas = "#/components/schemas/";
+constexpr std::string_view kDefinitions = "#/$defs/";
+
+/// Lets all references in a value refer to `$defs`; adds the names of what they refer to.
+void refer_to_definitions(Json& value, std::set<std::string>& names) {
+  if (value.is_object() && value.contains("$ref")) {
+    const std::string name = value["$ref"].get<std::string>().substr(kSchemas.size());
+    value["$ref"] = std::string(kDefinitions) + name;
+    names.insert(name);
+  }
+  for (Json& one : value) {
+    if (one.is_structured()) {
+      refer_to_definitions(one, names);
+    }
+  }
+}
+
 constexpr std::array kChoices{"anyOf", "oneOf", "allOf"};
 
 }  // namespace
 
 const Json& published_schema(std::string_view name) {
   return published().at("components").at("schemas").at(std::string(name));
+}
+
+Json standalone_schema(std::string_view name, const std::set<std::string>& without) {
+  Json schema = published_schema(name);
+  std::set<std::string> names;
+  refer_to_definitions(schema, names);
+  Json definitions = Json::object();
+  for (bool more = true; more;) {
+    more = false;
+    for (const std::string& one : std::set<std::string>(names)) {
+      if (!definitions.contains(one) && !without.contains(one)) {
+        definitions[one] = published_schema(one);
+        refer_to_definitions(definitions[one], names);
+        more = true;
+      }
+    }
+  }
+  schema["$defs"] = std::move(definitions);
+  return schema;
 }
 
 bool is_choice(const Json& schema) {

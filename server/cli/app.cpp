@@ -18,6 +18,7 @@
 #include "server/cli/plot.h"
 #include "server/cli/remote_arguments.h"
 #include "server/cli/shown.h"
+#include "server/jobs/limits.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -44,6 +45,7 @@ struct Arguments {
   std::string store = "snapthrough.db";
   std::string target;
   double tolerance = 0.0;
+  std::int64_t memory = std::int64_t{1} << 30;
   std::string address = "127.0.0.1:8080";
   bool ready = false;
   RemoteArguments remote;
@@ -146,10 +148,12 @@ CLI::App* add_service_command(CLI::App& app, const char* name, const char* descr
   for (const Setting& setting : settings()) {
     std::string flag = "--" + setting.name;
     std::replace(flag.begin(), flag.end(), '_', '-');
-    command->add_option_function<std::string>(
-        flag,
-        [&arguments, name = setting.name](const std::string& value) { arguments.settings[name] = value; },
-        setting.help + " [" + (setting.name == "workers" ? kOneForEachCore : setting.get(defaults)) + "]");
+    command
+        ->add_option_function<std::string>(
+            flag,
+            [&arguments, name = setting.name](const std::string& value) { arguments.settings[name] = value; },
+            setting.help + " [" + (setting.name == "workers" ? kOneForEachCore : setting.get(defaults)) + "]")
+        ->type_name(setting.type);
   }
   command
       ->add_flag_callback(
@@ -176,6 +180,15 @@ CLI::App* add_health_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("health", "Ask a service on this machine whether it lives");
   command->add_option("address", arguments.address, "host:port")->capture_default_str();
   command->add_flag("--ready", arguments.ready, "Ask whether it takes work, too");
+  return command;
+}
+
+CLI::App* add_mcp_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand(
+      "mcp", "Serve a language model: Model Context Protocol on standard input and output");
+  command->add_option("--memory", arguments.memory, "Largest memory of one analysis in bytes")
+      ->check(CLI::Range(kLeastJobMemory, std::int64_t{1} << 50))
+      ->capture_default_str();
   return command;
 }
 
@@ -216,6 +229,8 @@ void add_solving_commands(CLI::App& app, Arguments& arguments) {
   on(add_merge_command(app, arguments), arguments, [&arguments](const Streams& streams) {
     return merge_command(arguments.parts, form_of(arguments), streams);
   });
+  on(add_mcp_command(app, arguments), arguments,
+     [&arguments](const Streams& streams) { return mcp_command(arguments.memory, streams); });
   const std::shared_ptr<PlotArguments> plot = add_plot_command(app);
   on(app.get_subcommand("plot"), arguments,
      [plot](const Streams& streams) { return plot_command(*plot, streams); });

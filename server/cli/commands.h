@@ -72,6 +72,10 @@ int told_failed(std::uint64_t failed, std::uint64_t points, const Streams& strea
 /// @param front true: answer requests; false: only work on jobs of services that share the store
 int serve_command(const SettingSources& sources, bool front, const Streams& streams);
 
+/// Serves a language model by the Model Context Protocol: messages on `in` and `out`, until `in` ends.
+/// @param memory largest memory of one analysis in bytes
+int mcp_command(std::int64_t memory, const Streams& streams);
+
 /// Copies the jobs and sweeps of a store to another store; existing ones in the target are not changed.
 int copy_command(const std::string& source, const std::string& target, const Streams& streams);
 

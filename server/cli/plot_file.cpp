@@ -121,4 +121,19 @@ std::string write_png(const std::string& svg, const std::string& file, double sc
   return replace(file, [&](int descriptor) { return convert(svg, descriptor, scale); });
 }
 
+std::string png_of(const std::string& svg, std::string& png) {
+  constexpr double kScale = 1.5;
+  const Descriptor output(::memfd_create("png", MFD_CLOEXEC));
+  if (output.get() < 0) {
+    return reason("cannot make a file in memory");
+  }
+  if (std::string problem = convert(svg, output.get(), kScale); !problem.empty()) {
+    return problem;
+  }
+  png.resize(static_cast<std::size_t>(::lseek(output.get(), 0, SEEK_END)));
+  return ::pread(output.get(), png.data(), png.size(), 0) == static_cast<ssize_t>(png.size())
+             ? ""
+             : reason("cannot read the figure");
+}
+
 }  // namespace snapthrough::server::cli

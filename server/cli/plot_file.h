@@ -16,4 +16,8 @@ namespace snapthrough::server::cli {
 /// @return the error as a sentence; "" after success
 [[nodiscard]] std::string write_png(const std::string& svg, const std::string& file, double scale);
 
+/// @brief Writes an SVG text as PNG into `png`, as write_png() does into a file.
+/// @return the error as a sentence; "" after success
+[[nodiscard]] std::string png_of(const std::string& svg, std::string& png);
+
 }  // namespace snapthrough::server::cli
