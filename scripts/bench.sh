@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=scripts/lib/packages.sh
 source scripts/lib/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}" "${REPORT_PACKAGES[@]}"
-cmake --preset release -DBUILD_TESTING=OFF -DSNAPTHROUGH_BENCH=ON >/dev/null
+cmake --preset release >/dev/null
 cmake --build build/release --parallel "${JOBS:-$(nproc)}" --target bench_performance
 build/release/bench/bench_performance --benchmark_min_time=0.2 --benchmark_out=build/release/performance.json \
   --benchmark_out_format=json "$@"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # After a change of a field: makes what follows from api/openapi/openapi.json (types of the clients and of the page, tables of
 # documents) and checks tables of fields, documents, responses, clients and page against it.
-#   scripts/contract.sh [BUILD_FOLDER]     default: build/release, configured with -DBUILD_TESTING=ON
+#   scripts/contract.sh [BUILD_FOLDER]     default: build/release
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

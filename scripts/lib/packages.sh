@@ -2,13 +2,14 @@
 # shellcheck disable=SC2034
 # Package lists of the scripts and how they are installed. Sourced, not run.
 
-# What building and running the service needs.
+# What configuring and building needs, tests and benchmarks included: a build folder has one set of options.
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcpp-httplib-dev libssl-dev
-  zlib1g-dev libbrotli-dev libsqlite3-dev libpq-dev libzstd-dev libspdlog-dev libfmt-dev libcli11-dev libtomlplusplus-dev)
+  zlib1g-dev libbrotli-dev libsqlite3-dev libpq-dev libzstd-dev libspdlog-dev libfmt-dev libcli11-dev libtomlplusplus-dev
+  libgtest-dev libgmock-dev libbenchmark-dev)
 # What scripts/run.sh needs besides, to talk to the service.
 RUN_PACKAGES=(curl jq)
 # What scripts/test.sh needs besides.
-TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev valgrind clang-format python3 postgresql-15 procps
+TEST_PACKAGES=(valgrind clang-format python3 postgresql-15 procps
   abigail-tools librsvg2-bin libreoffice-calc-nogui python3-uno man-db mandoc fish zsh openssl octave-dev codespell
   python3-numpy)
 # What scripts/schema.sh needs; not installed where another installation of node and npm is there.

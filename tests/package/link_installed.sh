@@ -21,6 +21,9 @@ fi
 answer="$("$root/build/arch_in_ground")"
 echo "$answer"
 awk '{ error = ($1 - 93.117814) / 93.117814; exit error * error > 1e-6 }' <<<"$answer"
+"$root/build/path_with_hooks" | tee "$root/path"
+grep -q "points, [1-9][0-9]* critical points met, stopped" "$root/path"
+awk '/^first limit load/ { error = ($4 - 93.117814) / 93.117814; found = error * error < 1e-6 } END { exit !found }' "$root/path"
 "$root/usr/bin/snapthrough" --version
 
 # The C interface: a compiler of C, pkg-config, and Python's ctypes. The same arch is examples/arch_outside_base_k1e7.json.

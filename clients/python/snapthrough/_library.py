@@ -137,6 +137,27 @@ def _callback(step: Optional[Callable[[Progress], bool]]) -> Any:
 _NO_CALLBACK = _Callback(0)
 
 
+#: What a processor needs for the faster one of two libraries in the package, as Linux names it in /proc/cpuinfo.
+_X86_64_V3 = {"abm", "avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"}
+
+
+def _has_x86_64_v3() -> bool:
+    """Whether the processor has the instructions of x86-64-v3; False where nobody says so."""
+    try:
+        with open("/proc/cpuinfo", encoding="ascii", errors="replace") as file:
+            flags = next((line for line in file if line.startswith("flags")), "")
+    except OSError:
+        return False
+    return _X86_64_V3 <= set(flags.partition(":")[2].split())
+
+
+def _in_package() -> List[str]:
+    """Libraries that a wheel brings, in folders that are named by what a processor must have; the fastest that may run first."""
+    folder = pathlib.Path(__file__).resolve().parent / "native"
+    found = sorted(folder.glob("*/" + NAME), key=lambda path: path.parent.name, reverse=True)
+    return [str(path) for path in found if path.parent.name != "x86-64-v3" or _has_x86_64_v3()]
+
+
 def _in_checkouts() -> List[str]:
     """Build folders of the checkout that the package stands in."""
     for folder in pathlib.Path(__file__).resolve().parents:
@@ -149,7 +170,7 @@ def _in_checkouts() -> List[str]:
 def _load(path: Optional[Union[str, "os.PathLike[str]"]]) -> Tuple[str, Any]:
     """The path that worked and the loaded library; a path that was given is the only one that is tried."""
     given = path or os.environ.get(VARIABLE)
-    places = [os.fspath(given)] if given else _in_checkouts() + [NAME]
+    places = [os.fspath(given)] if given else _in_package() + _in_checkouts() + [NAME]
     tried = []
     for place in places:
         try:

@@ -69,6 +69,24 @@ class Installation(Case):
             told = subprocess.run([sys.executable, "-I", "-c", program], capture_output=True, text=True).stdout
             self.assertTrue(told.startswith(folder), told)
 
+    def test_a_wheel_brings_the_library_and_says_where_it_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            environment = {**os.environ, "PYTHONSNAPTHROUGH_LIBRARIES": f"any={LIBRARY};x86-64-v3={LIBRARY}",
+                           "PYTHONSNAPTHROUGH_PLATFORM": "manylinux_2_17_x86_64"}
+            source = shutil.copytree(PACKAGE, folder + "/source", ignore=shutil.ignore_patterns("__pycache__", "build"))
+            done = subprocess.run([sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder, source],
+                                  capture_output=True, text=True, env=environment, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            wheel, = pathlib.Path(folder).glob("*.whl")
+            self.assertEqual(wheel.name, f"snapthrough-{snapthrough.__version__}-py3-none-manylinux_2_17_x86_64.whl")
+            shutil.unpack_archive(wheel, folder + "/target", "zip")
+            program = (f"import sys; sys.path.insert(0, {folder + '/target'!r}); import snapthrough; "
+                       "print(snapthrough.Local().library)")
+            told = subprocess.run([sys.executable, "-I", "-c", program], capture_output=True, text=True, check=True).stdout
+            flags = pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace").split()
+            level = "x86-64-v3" if "avx2" in flags and "fma" in flags else "any"
+            self.assertEqual(told.strip(), f"{folder}/target/snapthrough/native/{level}/libsnapthrough.so.1")
+
     def test_it_is_built_without_a_network(self):
         with tempfile.TemporaryDirectory() as folder:
             source = shutil.copytree(PACKAGE, folder + "/source", ignore=shutil.ignore_patterns("__pycache__"))
