@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-from setuptools import setup
+from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
 
 try:
@@ -51,10 +51,15 @@ def built_library():
     return build / NAME
 
 
+def brings_libraries():
+    """Whether the package has libraries inside."""
+    return bool(given_libraries()) or (ROOT / "clients" / "c" / "snapthrough.map").is_file()
+
+
 def libraries():
     """(folder, file) of the libraries that the package brings."""
     given = given_libraries()
-    if given or not (ROOT / "clients" / "c" / "snapthrough.map").is_file():
+    if given or not brings_libraries():
         return given
     ready = ROOT / "build" / "release" / NAME
     return [("any", ready if ready.is_file() else built_library())]
@@ -79,19 +84,18 @@ class Wheel(bdist_wheel):
     """A wheel for every Python 3, and for one platform where it brings a library: ctypes calls that."""
 
     def get_tag(self):
-        platform = os.environ.get("PYTHONSNAPTHROUGH_PLATFORM")
-        brings = any(pathlib.Path(self.bdist_dir or "").glob("snapthrough/native/*/*"))
-        if not brings and not given_libraries():
-            return "py3", "none", "any"
-        return "py3", "none", platform or super().get_tag()[2]
+        return "py3", "none", os.environ.get("PYTHONSNAPTHROUGH_PLATFORM") or super().get_tag()[2]
 
-    def finalize_options(self):
-        super().finalize_options()
-        self.root_is_pure = False
+
+class Package(Distribution):
+    """Goes where packages with compiled parts go, if it has some."""
+
+    def has_ext_modules(self):
+        return brings_libraries()
 
 
 if (ROOT / "api" / "openapi" / "openapi.json").is_file():
     subprocess.run([sys.executable, str(FOLDER / "generate.py")], check=True)
 elif not (FOLDER / "snapthrough" / "results.py").is_file():
     sys.exit("snapthrough/results.py is not there: run generate.py in a checkout of the project")
-setup(cmdclass={"build_py": BuildWithLibraries, "bdist_wheel": Wheel})
+setup(distclass=Package, cmdclass={"build_py": BuildWithLibraries, "bdist_wheel": Wheel})

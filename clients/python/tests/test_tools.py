@@ -79,7 +79,9 @@ class Installation(Case):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             wheel, = pathlib.Path(folder).glob("*.whl")
             self.assertEqual(wheel.name, f"snapthrough-{snapthrough.__version__}-py3-none-manylinux_2_17_x86_64.whl")
-            shutil.unpack_archive(wheel, folder + "/target", "zip")
+            done = run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--target", folder + "/target",
+                        str(wheel)])
+            self.assertEqual(done.returncode, 0, done.stderr)
             program = (f"import sys; sys.path.insert(0, {folder + '/target'!r}); import snapthrough; "
                        "print(snapthrough.Local().library)")
             told = subprocess.run([sys.executable, "-I", "-c", program], capture_output=True, text=True, check=True).stdout
