@@ -6,8 +6,10 @@
 
 A command is a line of a fenced block that begins with snapthrough check, solve, sweep, plot, convert or merge ("$ " may stand before
 it, build/release/ too). It runs when it names a file of examples/, or one that an earlier command of its document has written; the
-commands of a document share a folder. A block that holds an "analysis" and is followed by a block that holds a "summary" is a request
-with its answer: each value of that summary is the program's, numbers to 1e-8.
+commands of a document share a folder like that of the project, in which build/release/snapthrough is. Each runs as it stands, in a
+fresh shell, which finds the program by its name where the document has the line of PATH_LINE, and not otherwise. A block that
+holds an "analysis" and is followed by a block that holds a "summary" is a request with its answer: each value of that summary is
+the program's, numbers to 1e-8.
 
 A document with a block "json NAME" is a tutorial and is followed: such a block is written to the file NAME, sh and python blocks
 run in their order beside a service, whose port replaces 8080, and a text block after one is what it prints, numbers to 1e-8.
@@ -27,6 +29,7 @@ FENCE = re.compile(r"^```\w*(?: \S+)?\n(.*?)^```", re.MULTILINE | re.DOTALL)
 KIND_FENCE = re.compile(r"^```(\w*) ?(\S*)\n(.*?)^```", re.MULTILINE | re.DOTALL)  # kind, name, text
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 COMMAND = re.compile(r"^(?:\$ )?(?:build/release/)?snapthrough (?:check|solve|sweep|plot|convert|merge) ")
+PATH_LINE = 'export PATH="$PWD/build/release:$PATH"'
 SAME_NUMBER = 1e-8
 MINIMUM_RUN = 20  # so that a changed style of writing cannot empty the check
 
@@ -36,7 +39,7 @@ def commands(text):
     for block in FENCE.findall(text):
         for line in block.splitlines():
             if COMMAND.match(line):
-                yield re.sub(r"\s+#.*", "", line.removeprefix("$ ").replace("build/release/", ""))
+                yield re.sub(r"\s+#.*", "", line.removeprefix("$ "))
 
 
 def is_complete(command, folder):
@@ -47,13 +50,15 @@ def is_complete(command, folder):
 def run_commands(program, text, folder):
     """(commands run, mistakes) of one document."""
     (folder / "examples").symlink_to(ROOT / "examples")
-    (folder / "snapthrough").symlink_to(pathlib.Path(program).resolve())
+    (folder / "build" / "release").mkdir(parents=True)
+    (folder / "build" / "release" / "snapthrough").symlink_to(pathlib.Path(program).resolve())
     run, wrong = 0, []
+    before = f"{PATH_LINE}; " if PATH_LINE in text else ""
     for command in commands(text):
         if is_complete(command, folder):
             run += 1
-            done = subprocess.run(["bash", "-o", "pipefail", "-c", f'PATH="$PWD:$PATH"; {command}'], cwd=folder, capture_output=True,
-                                  text=True, check=False)
+            done = subprocess.run(["bash", "-o", "pipefail", "-c", before + command], cwd=folder, capture_output=True, text=True,
+                                  check=False)
             if done.returncode != 0:
                 wrong.append(f"{command}: exit status {done.returncode}: {done.stderr.strip()[-200:]}")
     return run, wrong
@@ -113,7 +118,8 @@ def follow(program, text, folder):
     if not any(kind == "json" and name for kind, name, _ in blocks):
         return 0, []
     subprocess.run([sys.executable, ROOT / "clients/python/generate.py"], check=True, stdout=subprocess.DEVNULL)
-    environment = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT / "clients/python")}
+    path = f"{folder}/build/release:{os.environ['PATH']}" if PATH_LINE in text else os.environ["PATH"]
+    environment = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "clients/python")}
     run, wrong, printed = 0, [], ""
     with service(program, folder) as port:
         for kind, name, block in blocks:
