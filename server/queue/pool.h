@@ -63,8 +63,8 @@ class WorkerPool {
   std::vector<std::atomic<double>> begun_;
   RecentUse use_;       ///< processor time that computing for each owner took
   std::mutex on_duty_;  ///< one spare worker at a time looks for work
-  /// Once stop() has set it, no claim begins; those under way hold `claims_`. So none takes what another gives
-  /// back when the pool stops.
+  /// Once stop() has set it, no claim begins; those under way hold `claims_`. So none takes what another
+  /// gives back when the pool stops.
   std::atomic<bool> stopping_ = false;
   std::shared_mutex claims_;
   std::stop_source stop_;  ///< one for all threads
