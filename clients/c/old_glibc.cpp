@@ -3,6 +3,7 @@
 #define OLDEST "GLIBC_2.2.5"
 #define BIND(name) __asm__(".symver old_" #name ", " #name "@" OLDEST)
 
+// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming): the linker and glibc give these names
 extern "C" {
 
 /// Read by the C++ library, which then counts references with atomic instructions as beside other threads.
@@ -28,3 +29,4 @@ double __wrap_pow(double x, double y) { return old_pow(x, y); }
 int __wrap_pthread_once(int* once, void (*function)()) { return old_pthread_once(once, function); }
 int __wrap___pthread_key_create(unsigned* key, void (*destroy)(void*)) { return old___pthread_key_create(key, destroy); }
 }
+// NOLINTEND(bugprone-reserved-identifier, readability-identifier-naming)

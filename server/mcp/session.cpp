@@ -189,9 +189,9 @@ class Session {
   /// Stops a call; the client wants no answer to it.
   void cancel(const json& id) {
     const std::lock_guard guard(mutex_);
-    for (Call& call : calls_) {
+    for (const Call& call : calls_) {
       if (call.id == id) {
-        call.stop.request_stop();
+        std::stop_source(call.stop).request_stop();  // shares its state
       }
     }
   }
@@ -236,7 +236,7 @@ class Session {
       if (calls_.empty()) {
         return;
       }
-      Call& call = calls_.front();  // later calls do not move it
+      const Call& call = calls_.front();  // later calls do not move it
       lock.unlock();
       answer(tools, call);
       lock.lock();

@@ -220,7 +220,7 @@ json Tools::sweep(const json& arguments, Dialogue& dialogue) {
   News news(dialogue);
   const std::string id = "sweep-" + std::to_string(++sweeps_);
   runner().run_units(
-      {id, document, sweep, units, dialogue.stop(), {}, [&](std::vector<api::PointOutcome> outcomes) {
+      {id, document, sweep, units, dialogue.stop(), {}, [&](const std::vector<api::PointOutcome>& outcomes) {
          for (const api::PointOutcome& outcome : outcomes) {
            writer.append_row(point++, outcome, table);
          }
