@@ -39,9 +39,9 @@ constexpr std::string_view kTooMany =
     R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503,)"
     R"("detail":"As many connections are open as are taken."})";
 
-/// Nice value of the threads of low priority: they have a tenth of the time of others.
+/// Nice value of the threads of Lane low_: they have a tenth of the time of others.
 constexpr int kLowPriority = 10;
-/// Whether the calling thread has the low priority.
+/// Whether the calling thread is one of Lane low_, and has its priority.
 thread_local bool is_low = false;
 
 void watch(const Lane& lane, int descriptor, std::uint64_t name, std::uint32_t events, int operation) {
@@ -437,7 +437,7 @@ bool Listener::Server::gives_way(const Client& client) const {
 
 Turns& Listener::Server::turns_for(const Client& client) {
   return client.work_bytes > LargeDocument::kSmall ? large_turns_
-         : use_.is_much(client.party)              ? low_.turns
+         : gives_way(client)                       ? low_.turns
                                                    : normal_.turns;
 }
 

@@ -52,7 +52,7 @@ inline std::chrono::nanoseconds processor_time() {
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
-/// Counts processor time that the calling thread uses for a party.
+/// For its lifetime, counts the processor time of the calling thread as used by a party.
 class Counted {
  public:
   Counted(RecentUse& use, std::string party)
@@ -89,7 +89,8 @@ struct Wake {
   std::string party = {};  ///< whose turn it is
 };
 
-/// Connections, events and turns that threads of one priority share.
+/// The part of the listener that threads of one priority serve: its connections, its turns to compute
+/// responses, and events of connections that wait.
 struct Lane {
   Lane(int count, int of_one_party) : epoll(::epoll_create1(EPOLL_CLOEXEC)), turns(count, of_one_party) {}
 

@@ -122,7 +122,7 @@ json failure_of(const JobRun& run, const json& request) {
           {"request_sha256", api::request_digest(request)}};
 }
 
-/// Rows of a table that one call returns, with the number of all.
+/// Returns a table with at most its first kMostRows rows, and `row_count`, the number of all its rows.
 json first_rows(const json& table) {
   json shown = table;
   json& rows = shown["rows"];

@@ -144,8 +144,13 @@ api::Conversion convert_tables(Reader& in) {
 api::Conversion convert_drawing(const json& arguments, Reader& in) {
   api::DxfOptions options;
   options.tolerance = in.number("tolerance", 1e-300, 1e300);
-  for (const json& layer : arguments.value("layers", json::array())) {
-    options.layers.push_back(layer.is_string() ? layer.get<std::string>() : layer.dump());
+  const json layers = arguments.value("layers", json::array());
+  const bool texts = layers.is_array() && std::all_of(layers.begin(), layers.end(),
+                                                      [](const json& one) { return one.is_string(); });
+  if (texts) {
+    options.layers = layers.get<std::vector<std::string>>();
+  } else {
+    in.findings.push_back(wrong("/layers", "must be a list of texts"));
   }
   return api::convert_dxf(in.text("drawing").value_or(""), options);
 }

@@ -14,13 +14,11 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <stop_token>
-#include <system_error>
 #include <utility>
 
 #include "server/worker/frame.h"
@@ -51,13 +49,6 @@ constexpr std::chrono::milliseconds kStartPause{200};
 constexpr std::size_t kMostSweeps = 16;
 
 }  // namespace
-
-std::string own_executable() {
-  constexpr const char* kSelf = "/proc/self/exe";
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink(kSelf, error);
-  return program.filename().string().starts_with("ld-linux") ? program_invocation_name : kSelf;
-}
 
 /// Calls the hooks for a news frame of a running analysis. @throws std::runtime_error for a frame that is too
 /// large or malformed
@@ -158,14 +149,14 @@ void ChildRunner::start() {
   process_ = process;
   task_ = 0;
   if (gives_way_) {
-    (void)lower_priority();
+    lower_priority();
   }
 }
 
 void ChildRunner::give_way() {
   gives_way_ = true;
   if (process_ != 0) {
-    (void)lower_priority();
+    lower_priority();
   }
 }
 

@@ -28,15 +28,14 @@ struct RunnerCounters {
   std::atomic<std::int64_t> without_process = 0;
 };
 
-/// @brief Returns the path from which this program can be started again: /proc/self/exe, which stays when the
-/// file is replaced, or the script that started it with the loader of an archive (scripts/archive.sh).
-[[nodiscard]] std::string own_executable();
+/// Path of the program that is running, which stays the same program when its file is replaced.
+inline constexpr const char* kOwnExecutable = "/proc/self/exe";
 
 struct ChildRunnerOptions {
-  std::string executable = own_executable();  ///< path of the program snapthrough
-  std::int64_t memory = 0;                    ///< limit of one analysis in bytes
-  int max_crashes = 1;                        ///< crashes after which an analysis fails, >= 1
-  std::chrono::milliseconds grace{2000};      ///< from the stop request to the kill
+  std::string executable = kOwnExecutable;  ///< path of the program snapthrough
+  std::int64_t memory = 0;                  ///< limit of one analysis in bytes
+  int max_crashes = 1;                      ///< crashes after which an analysis fails, >= 1
+  std::chrono::milliseconds grace{2000};    ///< from the stop request to the kill
 };
 
 /// @brief Lets a child process compute, and replaces it when it ends. The process ends with the thread that
@@ -60,7 +59,7 @@ class ChildRunner final : public Runner {
   struct Watch;
 
   void start();
-  [[nodiscard]] bool lower_priority() const;
+  bool lower_priority() const;
   void replace();
   [[nodiscard]] bool has_process(const std::stop_token& stop);
   void close_ends() const;

@@ -23,7 +23,7 @@ class Runners {
       normal_ = make_();
     }
   }
-  /// Returns the runner for work of an owner.
+  /// Returns the runner for the next task of an owner: the one that gives way if the owner uses much.
   [[nodiscard]] Runner& of(const std::string& owner) {
     if (use_.is_much(owner)) {
       if (!low_) {

@@ -101,7 +101,8 @@ TEST(McpSession, AFigureThatNoProgramConvertsIsSvgWithTheReason) {
 TEST(McpSession, AnArgumentThatNoToolHasIsRefused) {
   const std::vector<json> said =
       said_to(call(1, "read", {{"id", "result-1"}, {"pointer", ""}, {"coun", 3}}) +
-              call(2, "convert", json::object()) + call(3, "plot", {{"kind", "rose"}}));
+              call(2, "convert", json::object()) + call(3, "plot", {{"kind", "rose"}}) +
+              call(4, "convert", {{"drawing", ""}, {"layers", 3}}));
   for (const json& one : said) {
     EXPECT_TRUE(one.at("result").at("isError")) << one;
   }
