@@ -47,6 +47,34 @@ function column(EI) {
   };
 }
 
+/** Twelve stiffnesses of the soil about an arch that snaps through. */
+function stiffnesses(model) {
+  return {
+    model,
+    analysis: {type: 'critical'},
+    parameters: [{name: 'k', targets: [{pointer: '/model/foundations/0/stiffness'}], range: {from: 10, to: 1000, count: 12, spacing: 'log'}}],
+    design: 'grid',
+    outputs: ['/summary/critical_load_factor'],
+  };
+}
+
+/** A pile that is pushed at its head, in the foundations that its soil became. */
+function pushed(pile, foundations) {
+  const top = -pile.head_depth;
+  return {
+    model: {
+      nodes: [{id: 'tip', x: 0, y: top - pile.length}, {id: 'head', x: 0, y: top}],
+      sections: [{id: 'tube', EA: 6e6, EI: 120000}],
+      members: [{id: pile.member, start: 'tip', end: 'head', section: 'tube'}],
+      supports: [{node: 'tip', fixed: ['y']}],
+      foundations,
+      loads: [{type: 'point', at: {node: 'head'}, force: [60, 0]}],
+      monitors: [{id: 'head', at: {node: 'head'}, component: 'x'}],
+    },
+    analysis: {type: 'static'},
+  };
+}
+
 describe('problems in words', () => {
   const asked = [];
   let client;
@@ -75,13 +103,7 @@ describe('problems in words', () => {
 
   test('"How does the snap-through load of this arch depend on the stiffness of the soil? Draw it."', async () => {
     const {model} = example('arch_outside_base_k1e7.json');
-    const sweep = {
-      model,
-      analysis: {type: 'critical'},
-      parameters: [{name: 'k', targets: [{pointer: '/model/foundations/0/stiffness'}], range: {from: 10, to: 1000, count: 12, spacing: 'log'}}],
-      design: 'grid',
-      outputs: ['/summary/critical_load_factor'],
-    };
+    const sweep = stiffnesses(model);
     const checked = await answered(client, 'check', sweep);
     assert.equal(checked.size.points, 12);
     const table = await answered(client, 'sweep', sweep);
@@ -98,19 +120,7 @@ describe('problems in words', () => {
   test('"A pile 12 long in clay over sand, pushed at its head: what does the soil do, and how far does it move?"', async () => {
     const soil = example('convert/pile_soil.json');
     const parts = await answered(client, 'convert', {soil});
-    const top = -soil.pile.head_depth;
-    const request = {
-      model: {
-        nodes: [{id: 'tip', x: 0, y: top - soil.pile.length}, {id: 'head', x: 0, y: top}],
-        sections: [{id: 'tube', EA: 6e6, EI: 120000}],
-        members: [{id: soil.pile.member, start: 'tip', end: 'head', section: 'tube'}],
-        supports: [{node: 'tip', fixed: ['y']}],
-        foundations: parts.foundations,
-        loads: [{type: 'point', at: {node: 'head'}, force: [60, 0]}],
-        monitors: [{id: 'head', at: {node: 'head'}, component: 'x'}],
-      },
-      analysis: {type: 'static'},
-    };
+    const request = pushed(soil.pile, parts.foundations);
     const found = await answered(client, 'solve', request);
     const wanted = native(request);
     assert.ok(found.left_out.length > 0, 'long lists are left out, and named');
@@ -156,7 +166,9 @@ describe('what is missing or wrong', () => {
     assert.ok((await call(client, 'read', {id: 'result-9', pointer: ''})).isError);
     await client.close();
   });
+});
 
+describe('the protocol', () => {
   test('a call that is cancelled ends, and later calls are answered', async () => {
     const client = await connect();
     const long = column(100);
