@@ -38,7 +38,7 @@ SOLVER_ORDER = """
 """.split()
 API_ORDER = "openapi . plot convert".split()
 SERVER_ORDER = """
-    status environment authority digest descriptor bell metrics log jobs store store/sqlite store/postgresql store/open_store
+    status environment authority digest descriptor bell priority metrics log jobs store store/sqlite store/postgresql store/open_store
     worker sweeps queue neighbours maintenance resources front webhooks config key_settings settings service mcp cli main pages_main
 """.split()
 ORDERS = {"solver": SOLVER_ORDER, "api": API_ORDER, "server": SERVER_ORDER}
