@@ -92,6 +92,12 @@ std::optional<DiskGuard> disk_guard(const ServiceConfig& config) {
 }
 
 /// Returns the key that signs callbacks; "" without callbacks.
+/// Connections to a database: a worker has one for itself when it claims and when it stores, so that none of
+/// them waits while requests have all others.
+int connections_of(const ServiceConfig& config) {
+  return config.store_connections + (config.workers > 0 ? config.workers + config.jobs.spare_workers : 0);
+}
+
 StatusOr<std::string> callback_key(const ServiceConfig& config) {
   if (config.jobs.callback_hosts.empty() || !config.front) {
     return std::string();
@@ -256,7 +262,7 @@ Status Service::start() {
     return key.status();
   }
   StatusOr<std::unique_ptr<Store>> store =
-      open_store(config_.store_path, config_.store_connections, environment_.now());
+      open_store(config_.store_path, connections_of(config_), environment_.now());
   if (!store.ok()) {
     return store.status();
   }

@@ -221,7 +221,7 @@ std::vector<Setting> front_settings() {
 std::vector<Setting> job_settings() {
   return {
       store_setting(),
-      whole("store_connections", "Connections to a store that is a database, of this process",
+      whole("store_connections", "Connections to a database beside one for each worker",
             [](ServiceConfig& c) -> int& { return c.store_connections; }),
       whole("workers", "Analyses at the same time; 0: other processes that share the store work",
             [](ServiceConfig& c) -> int& { return c.workers; }),

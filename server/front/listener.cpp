@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <sys/epoll.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "server/front/listener_server.h"
 #include "server/front/sockets.h"
+#include "server/priority.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -39,8 +39,6 @@ constexpr std::string_view kTooMany =
     R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503,)"
     R"("detail":"As many connections are open as are taken."})";
 
-/// Nice value of the threads of Lane low_: they have a tenth of the time of others.
-constexpr int kLowPriority = 10;
 /// Whether the calling thread is one of Lane low_, and has its priority.
 thread_local bool is_low = false;
 
@@ -89,7 +87,7 @@ Status Listener::Server::start() {
   for (int i = 0; i < options_.threads; ++i) {
     threads_.emplace_back([this] {
       is_low = true;
-      ::setpriority(PRIO_PROCESS, 0, kLowPriority);  // this thread alone
+      give_way_from_now_on();
       work(low_);
     });
   }
@@ -149,11 +147,14 @@ void Listener::Server::event(const ClientPointer& client, std::uint32_t events) 
   with_memory(client, [&] { attend(client, events); });
 }
 
-/// Does something for a client. Ends the connection when that throws, most likely for want of memory.
+/// Does something for a client, and counts the processor time of that as used by its party. Ends the
+/// connection when that throws, most likely for want of memory.
 template <class Use>
 void Listener::Server::with_memory(const ClientPointer& client, const Use& use) {
+  const std::chrono::nanoseconds before = processor_time();
   try {
     use();
+    use_.add(client->party, processor_time() - before);
   } catch (const std::exception&) {
     ++without_memory_;
     give_up(client);
@@ -481,7 +482,6 @@ Response Listener::Server::in_its_turn(Client& client, Turns& turns) {
   };
   const Turn turn(*this, client, turns);
   const Clock::time_point start = Clock::now();
-  const Counted counted(use_, client.party);
   const WorkLimit limit([this, &client, start, before = processor_time()] {
     return is_over(client, start, processor_time() - before);
   });

@@ -161,7 +161,6 @@ bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t e
 /// Appends a piece of the body. Returns false when the body cannot be completed.
 bool Listener::Server::append_piece(const ClientPointer& client) {
   try {
-    const Counted counted(use_, client->party);
     std::string piece;
     const StatusOr<bool> more = client->rest->append_next(piece);
     if (!more.ok()) {

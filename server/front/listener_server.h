@@ -52,23 +52,6 @@ inline std::chrono::nanoseconds processor_time() {
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
-/// For its lifetime, counts the processor time of the calling thread as used by a party.
-class Counted {
- public:
-  Counted(RecentUse& use, std::string party)
-      : use_(use), party_(std::move(party)), before_(processor_time()) {}
-  ~Counted() { use_.add(party_, processor_time() - before_); }
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
-  Counted(Counted&&) = delete;
-  Counted& operator=(Counted&&) = delete;
-
- private:
-  RecentUse& use_;
-  const std::string party_;
-  const std::chrono::nanoseconds before_;
-};
-
 /// Repeats what needs little memory, and must not fail, until there is memory for it.
 template <class Use>
 auto until_memory(const Use& use) noexcept {

@@ -20,8 +20,10 @@ using std::chrono::duration;
 /// store it is longer, because Neighbours polls for all workers of the process.
 constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kLongestSharedNap{10.0};
-/// Value of WorkerPool::begun_ for a worker that waits for work.
+/// Value of WorkerPool::busy_since_ and spare_began_ for a worker that waits for work.
 constexpr double kWaits = std::numeric_limits<double>::infinity();
+/// Work that has taken longer is long; its process gives way from then on, too.
+constexpr duration<double> kLong{1.0};
 /// Pause before another attempt to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
 
@@ -217,15 +219,19 @@ void work_on(const Handoff& handoff, const WorkerContext& context, Runners& runn
 }
 
 WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory make)
-    : context_(context), make_(std::move(make)), begun_(static_cast<std::size_t>(threads)) {
-  std::fill(begun_.begin(), begun_.end(), kWaits);
-  threads_.reserve(begun_.size() + static_cast<std::size_t>(context_.limits.spare_workers));
+    : context_(context),
+      make_(std::move(make)),
+      busy_since_(static_cast<std::size_t>(threads)),
+      spare_began_(static_cast<std::size_t>(threads > 0 ? context.limits.spare_workers : 0)) {
+  std::fill(busy_since_.begin(), busy_since_.end(), kWaits);
+  std::fill(spare_began_.begin(), spare_began_.end(), kWaits);
+  threads_.reserve(busy_since_.size() + spare_began_.size());
   try {
-    for (std::size_t i = 0; i < begun_.size(); ++i) {
+    for (std::size_t i = 0; i < busy_since_.size(); ++i) {
       threads_.emplace_back([this, i] { run(i, stop_.get_token()); });
     }
-    for (int i = 0; threads > 0 && i < context_.limits.spare_workers; ++i) {
-      threads_.emplace_back([this, i] { run_spare(i % 2 == 0, stop_.get_token()); });
+    for (std::size_t i = 0; i < spare_began_.size(); ++i) {
+      threads_.emplace_back([this, i] { run_spare(i, stop_.get_token()); });
     }
   } catch (...) {
     stop();  // the system has no thread left
@@ -262,10 +268,11 @@ bool WorkerPool::claim_and_work(Runners& runners, const std::stop_token& stop, c
   return claim.has_value();
 }
 
-/// Whether all workers have been at the same work for JobLimits::spare_after.
-bool WorkerPool::are_held() const {
+/// Whether all workers have been busy for JobLimits::spare_after.
+bool WorkerPool::are_busy() const {
   const double before = now() - duration<double>(context_.limits.spare_after).count();
-  return std::all_of(begun_.begin(), begun_.end(), [&](const auto& begun) { return begun < before; });
+  return std::all_of(busy_since_.begin(), busy_since_.end(),
+                     [&](const auto& since) { return since < before; });
 }
 
 bool WorkerPool::is_left() const { return context_.waiting.value() > 0 || context_.sweeps.is_left(); }
@@ -279,23 +286,34 @@ void WorkerPool::wait_as_spare(std::uint64_t& seen, const std::stop_token& stop)
   pause(stop, context_.limits.spare_after);
 }
 
-/// @param for_all also for owners who use much processor time
-void WorkerPool::run_spare(bool for_all, const std::stop_token& stop) {
+/// Whether less than half of the spare workers are at work that has taken long: only then one more may begin
+/// the work of an owner who uses much processor time.
+bool WorkerPool::are_spares_left() const {
+  const double before = now() - kLong.count();
+  const auto at_long_work = std::count_if(spare_began_.begin(), spare_began_.end(),
+                                          [&](const auto& began) { return began < before; });
+  return 2 * at_long_work < std::ssize(spare_began_);
+}
+
+void WorkerPool::run_spare(std::size_t number, const std::stop_token& stop) {
+  std::atomic<double>& began = spare_began_[number];
   Runners runners(make_, use_);
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
     wait_as_spare(seen, stop);
     bool worked = true;
-    while (worked && are_held() && !stop.stop_requested()) {
-      const OwnersInTurn owners{true, for_all ? std::vector<std::string>() : use_.of_much()};
+    while (worked && are_busy() && !stop.stop_requested()) {
+      const OwnersInTurn owners{true, are_spares_left() ? std::vector<std::string>() : use_.of_much()};
+      began = now();
       worked = context_.waiting.value() > 0 && claim_and_work(runners, stop, owners);
       worked = context_.sweeps.do_next(runners, stop, owners) || worked;
     }
+    began = kWaits;
   }
 }
 
 void WorkerPool::run(std::size_t number, const std::stop_token& stop) {
-  std::atomic<double>& begun = begun_[number];
+  std::atomic<double>& busy_since = busy_since_[number];
   Runners runners(make_, use_);
   runners.prepare();
   std::uint64_t seen = 0;
@@ -303,7 +321,9 @@ void WorkerPool::run(std::size_t number, const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     // Jobs and sweeps alternate, so that neither waits for the end of the other. While sweeps run, the store
     // is not queried for jobs unless some are known to wait.
-    begun = now();
+    if (busy_since == kWaits) {
+      busy_since = now();
+    }
     const bool waited = context_.waiting.value() > 0;
     const bool worked = waited && claim_and_work(runners, stop);
     if ((!stop.stop_requested() && context_.sweeps.do_next(runners, stop)) || worked ||
@@ -311,12 +331,12 @@ void WorkerPool::run(std::size_t number, const std::stop_token& stop) {
       continue;
     }
     // Jobs handed over directly have priority over stored ones, so that no worker idles while jobs wait.
-    begun = kWaits;
+    busy_since = kWaits;
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
-      begun = now();
+      busy_since = now();
       work_on(*handoff, context_, runners, stop);
-      begun = kWaits;
+      busy_since = kWaits;
       if (context_.waiting.value() > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
         break;
       }

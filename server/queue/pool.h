@@ -30,10 +30,10 @@ void work_on(const Handoff& handoff, const WorkerContext& context, Runners& runn
 /// @brief A fixed number of worker threads, and spare ones. Thread-safe; the constructor's arguments must
 /// outlive the object.
 ///
-/// While all workers have been at the same work for JobLimits::spare_after, spare ones work for owners for
-/// whom nothing of the kind (jobs, sweeps) runs: the long work of some owners does not stop the others. Half
-/// of them leave the work of owners who use much processor time to the rest. A spare worker has a runner from
-/// its first work on.
+/// While all workers have been busy for JobLimits::spare_after, spare ones work for owners for whom nothing
+/// of the kind (jobs, sweeps) runs: the long work of some owners does not stop the others. While half of them
+/// are at long work, they begin no work of owners who use much processor time. A spare worker has a runner
+/// from its first work on.
 class WorkerPool {
  public:
   /// @param make makes the runner of a thread; called once on each
@@ -50,17 +50,20 @@ class WorkerPool {
 
  private:
   void run(std::size_t number, const std::stop_token& stop);
-  void run_spare(bool for_all, const std::stop_token& stop);
+  void run_spare(std::size_t number, const std::stop_token& stop);
+  [[nodiscard]] bool are_spares_left() const;
   void wait_as_spare(std::uint64_t& seen, const std::stop_token& stop);
   [[nodiscard]] bool is_left() const;
   bool claim_and_work(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners = {});
-  [[nodiscard]] bool are_held() const;
+  [[nodiscard]] bool are_busy() const;
   [[nodiscard]] double now() const { return context_.environment.monotonic_seconds(); }
 
   const WorkerContext& context_;
   RunnerFactory make_;
-  /// Time of the monotonic clock at which each worker began its present work; infinite: it waits for some.
-  std::vector<std::atomic<double>> begun_;
+  /// Time of the monotonic clock since which each worker has been busy; infinite: it waits for work.
+  std::vector<std::atomic<double>> busy_since_;
+  /// Time at which each spare worker began its present work; infinite: it waits for some.
+  std::vector<std::atomic<double>> spare_began_;
   RecentUse use_;       ///< processor time that computing for each owner took
   std::mutex on_duty_;  ///< one spare worker at a time looks for work
   /// Once stop() has set it, no claim begins; those under way hold `claims_`. So none takes what another

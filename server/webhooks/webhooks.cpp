@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/bell.h"
+#include "server/priority.h"
 #include "server/resources/documents.h"
 #include "server/webhooks/signature.h"
 
@@ -104,8 +105,10 @@ Webhooks::Webhooks(const WebhookSurroundings& surroundings, const std::vector<st
     }
   }
   for (const std::unique_ptr<Sender>& sender : senders_) {
-    sender->thread =
-        std::jthread([this, &own = *sender](const std::stop_token& stop) { send_due(own, stop); });
+    sender->thread = std::jthread([this, &own = *sender](const std::stop_token& stop) {
+      give_way_from_now_on();  // nobody waits for a delivery, and receivers decide what it takes
+      send_due(own, stop);
+    });
   }
   if (senders_.empty()) {
     return;

@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +22,7 @@
 #include <stop_token>
 #include <utility>
 
+#include "server/priority.h"
 #include "server/worker/frame.h"
 #include "server/worker/record.h"
 #include "server/worker/runner_process.h"
@@ -36,7 +38,6 @@ constexpr std::chrono::milliseconds kLook{20};
 /// Time after which a job, or a unit of a sweep, gives way to shorter ones: its process gets a lower
 /// priority.
 constexpr std::chrono::milliseconds kShort{1000};
-constexpr int kGivesWay = 10;  ///< nice value of a process that gives way: a tenth of the time of another one
 /// Bytes of a frame in addition to the memory limit of an analysis.
 constexpr std::uint64_t kMostBeside = 1 << 20;
 /// Largest size in bytes of one news frame of a running analysis.
@@ -73,6 +74,13 @@ struct ChildRunner::Watch {
   std::function<bool(Frame&)> take;        ///< handles a frame. @return whether it was the last one
   std::function<bool()> enough = nullptr;  ///< see UnitTask::enough; null for jobs
 };
+
+std::string own_executable() {
+  const std::string link = "/proc/self/exe";
+  std::error_code unknown;
+  const std::string target = std::filesystem::read_symlink(link, unknown).filename().string();
+  return target.rfind("ld-", 0) == 0 ? program_invocation_name : link;
+}
 
 ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)
     : options_(std::move(options)), counters_(counters) {

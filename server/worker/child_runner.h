@@ -28,14 +28,16 @@ struct RunnerCounters {
   std::atomic<std::int64_t> without_process = 0;
 };
 
-/// Path of the program that is running, which stays the same program when its file is replaced.
-inline constexpr const char* kOwnExecutable = "/proc/self/exe";
+/// Path of the program that is running: a link of the system, which stays the same program when its file is
+/// replaced. Where a loader of Linux was started with the program as its argument, the name that it gave the
+/// program: the link is that of the loader then.
+[[nodiscard]] std::string own_executable();
 
 struct ChildRunnerOptions {
-  std::string executable = kOwnExecutable;  ///< path of the program snapthrough
-  std::int64_t memory = 0;                  ///< limit of one analysis in bytes
-  int max_crashes = 1;                      ///< crashes after which an analysis fails, >= 1
-  std::chrono::milliseconds grace{2000};    ///< from the stop request to the kill
+  std::string executable = own_executable();  ///< path of the program snapthrough
+  std::int64_t memory = 0;                    ///< limit of one analysis in bytes
+  int max_crashes = 1;                        ///< crashes after which an analysis fails, >= 1
+  std::chrono::milliseconds grace{2000};      ///< from the stop request to the kill
 };
 
 /// @brief Lets a child process compute, and replaces it when it ends. The process ends with the thread that

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -145,6 +146,23 @@ TEST_F(Executable, TheServiceSolvesStopsOnSigtermAndKeepsItsResult) {
   EXPECT_EQ(get(port_, reply.header("Location") + "/result").body, reply.body);
   service->signal(SIGINT);
   EXPECT_EQ(service->wait(), 0);
+}
+
+/// The archive for any Linux starts its program so.
+TEST_F(Executable, AServiceThatALoaderStartedHasRunners) {
+  const std::string loader = "/lib64/ld-linux-x86-64.so.2";
+  if (!std::filesystem::exists(loader)) {
+    GTEST_SKIP() << "this machine's loader has another name";
+  }
+  const Process service(folder_,
+                        {"--argv0", SNAPTHROUGH_EXECUTABLE, SNAPTHROUGH_EXECUTABLE, "serve", "--listen",
+                         "127.0.0.1:0", "--store", folder_.file("jobs.db"), "--workers", "1"},
+                        "", loader);
+  const int port = listening_port(service);
+  ASSERT_GT(port, 0) << service.err();
+  const Reply reply = post(port, "/v1/jobs", column_request());
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  EXPECT_TRUE(json::parse(reply.body)["summary"].contains("critical_load_factor"));
 }
 
 TEST_F(Executable, AKilledServiceKeepsWhatItAcknowledged) {
