@@ -35,8 +35,10 @@ using snapthrough::Analysis;
 using snapthrough::Finding;
 using snapthrough::Hooks;
 using snapthrough::Model;
+using snapthrough::NamedValue;
 using snapthrough::Progress;
 using snapthrough::Result;
+using snapthrough::TracedPoint;
 namespace api = snapthrough::api;
 
 /// Smallest size of snapthrough_options in any version of the header.
@@ -162,12 +164,27 @@ Answer solved(std::string_view text, Caller& caller) {
   if (!read.request) {
     return refused(read.malformed, read.findings);
   }
+  snapthrough_progress point{};
+  point.size = sizeof point;
+  std::vector<double> monitors;
   Hooks hooks;
   hooks.stop = caller.stopped();
   if (caller.watches()) {
-    hooks.on_progress = [&caller](const Progress& progress) {
-      caller.tell({sizeof(snapthrough_progress), static_cast<std::uint64_t>(progress.step), 0,
-                    progress.load_factor, progress.branch, progress.negative_eigenvalues});
+    hooks.on_point = [&point, &monitors](const TracedPoint& traced) {
+      point.arc_length = traced.arc_length;
+      monitors.clear();
+      for (const NamedValue& monitor : traced.monitors) {
+        monitors.push_back(monitor.value);
+      }
+    };
+    hooks.on_progress = [&](const Progress& progress) {
+      point.done = static_cast<std::uint64_t>(progress.step);
+      point.load_factor = progress.load_factor;
+      point.branch = progress.branch;
+      point.negative_eigenvalues = progress.negative_eigenvalues;
+      point.monitors = monitors.data();
+      point.monitor_count = monitors.size();
+      caller.tell(point);
     };
   }
   const auto [result, seconds] = timed(read.request->model, read.request->analysis, hooks);
@@ -257,7 +274,7 @@ Answer swept(const api::Sweep& sweep, const nlohmann::json& asked, Points points
       table.append_row(points.first + done, outcome, answer.text);
       ++done;
     }
-    caller.tell({sizeof(snapthrough_progress), done, points.count, 0.0, 0, 0});
+    caller.tell({sizeof(snapthrough_progress), done, points.count, 0.0, 0, 0, 0.0, nullptr, 0});
   }
   table.append_tail(answer.text);
   return answer;

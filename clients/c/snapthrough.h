@@ -58,6 +58,9 @@ typedef struct snapthrough_progress {
   double load_factor;       /**< load factor of the last point of the path; sweeps: 0 */
   int branch;               /**< index of the path's branch, from 0; sweeps: 0 */
   int negative_eigenvalues; /**< negative eigenvalues of the tangent stiffness; 0: stable; sweeps: 0 */
+  double arc_length;        /**< arc length of the path up to its last point; sweeps: 0 */
+  const double* monitors;   /**< values of the monitors at that point, in the order of the model; until the callback returns */
+  size_t monitor_count;     /**< number of these values; sweeps: 0 */
 } snapthrough_progress;
 
 /**

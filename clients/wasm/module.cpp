@@ -14,14 +14,16 @@
 extern "C" {
 /// Imported. Whether the call shall stop, 0: no.
 __attribute__((import_module("snapthrough"), import_name("progress"))) int snapthrough_wasm_progress(
-    double done, double total, double load_factor, int branch, int negative_eigenvalues);
+    double done, double total, double load_factor, int branch, int negative_eigenvalues, double arc_length,
+    const double* monitors, std::size_t monitor_count);
 }
 
 namespace {
 
 int tell(const snapthrough_progress* now, void* /*unused*/) {
   return snapthrough_wasm_progress(static_cast<double>(now->done), static_cast<double>(now->total),
-                                   now->load_factor, now->branch, now->negative_eigenvalues);
+                                   now->load_factor, now->branch, now->negative_eigenvalues, now->arc_length,
+                                   now->monitors, now->monitor_count);
 }
 
 }  // namespace

@@ -16,6 +16,10 @@ export interface Progress {
   loadFactor: number;
   branch: number;
   negativeEigenvalues: number;
+  /** Arc length of the path up to its last point. */
+  arcLength: number;
+  /** Values of the monitors at that point, in the order of the model. */
+  monitors: number[];
 }
 
 export interface SweepProgress {

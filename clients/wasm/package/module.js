@@ -51,8 +51,11 @@ export class Module {
     const imports = {
       wasi_snapshot_preview1: {},
       snapthrough: {
-        progress: (done, total, loadFactor, branch, negativeEigenvalues) =>
-          (module.#onProgress?.({ done, total, loadFactor, branch, negativeEigenvalues }) === true ? 1 : 0),
+        progress: (done, total, loadFactor, branch, negativeEigenvalues, arcLength, at, count) => {
+          const monitors = Array.from(new Float64Array(module.#functions.memory.buffer, at, count));
+          const now = { done, total, loadFactor, branch, negativeEigenvalues, arcLength, monitors };
+          return module.#onProgress?.(now) === true ? 1 : 0;
+        },
       },
     };
     for (const { module: from, name } of WebAssembly.Module.imports(compiled)) {

@@ -5,6 +5,7 @@ import { Status } from './module.js';
 
 const kProblem = 'urn:snapthrough:problem:';
 const kJobs = 50;  // finished ones that are kept
+const MONITORS = 100;  // of which points are told
 const MESSAGES = { running: 'runs', successful: 'the result is ready', dismissed: 'the owner dismissed it' };
 
 const json = (status, body, headers = {}) =>
@@ -137,9 +138,12 @@ export class LocalService {
     try {
       const result = await (await this.#solver).solve(job.document, {
         signal: job.abort.signal,
-        onProgress: ({ done, loadFactor, branch, negativeEigenvalues }) => job.tell('progress', {
-          attempt: 1, step: done, load_factor: loadFactor, branch, negative_eigenvalues: negativeEigenvalues,
-        }),
+        onProgress: (now) => {
+          job.tell('points', pointsOf(job.document, now));
+          job.tell('progress', {
+            attempt: 1, step: now.done, load_factor: now.loadFactor, branch: now.branch, negative_eigenvalues: now.negativeEigenvalues,
+          });
+        },
       });
       job.result = result;
       job.change({ program: result.program, request_sha256: result.request_sha256 });
@@ -282,6 +286,15 @@ export class LocalService {
     });
     return new Response(stream, { headers: { 'Content-Type': 'text/event-stream' } });
   }
+}
+
+/** The point of a path that an analysis has come to, as data of a points event. */
+function pointsOf({ model }, now) {
+  return {
+    branch: [now.branch], step: [now.done], load_factor: [now.loadFactor], arc_length: [now.arcLength],
+    negative_eigenvalues: [now.negativeEigenvalues],
+    monitors: now.monitors.slice(0, MONITORS).map((value, i) => ({ id: model.monitors[i].id, values: [value] })),
+  };
 }
 
 /** Rows of objects, with those members as columns that are no lists and no objects. */

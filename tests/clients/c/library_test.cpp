@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -255,6 +256,30 @@ TEST(Library, TheCallbackSeesEachStepAndCanStop) {
   EXPECT_EQ(json::parse(document->text).at("failure").at("code"), "cancelled");
   EXPECT_EQ(seen.calls, 3U);
   EXPECT_NE(seen.load_factor, 0.0);
+}
+
+TEST(Library, TheCallbackSeesThePointsOfThePath) {
+  using Points = std::map<double, double>;  // value of the monitor by arc length
+  Points told;
+  const auto tell = [](const snapthrough_progress* now, void* user) {
+    EXPECT_EQ(now->monitor_count, 1U);
+    if (now->monitor_count == 1) {
+      static_cast<Points*>(user)->emplace(now->arc_length, now->monitors[0]);
+    }
+    return 0;
+  };
+  const Document document = solve(text_of("arch_no_base.json"), nullptr, tell, &told);
+  ASSERT_EQ(document->status, SNAPTHROUGH_DONE) << document->text;
+  const json branch = json::parse(document->text).at("branches").at(0);
+  int common = 0;  // the result has critical points, too, which are no steps
+  for (std::size_t i = 0; i < branch.at("arc_length").size(); ++i) {
+    const auto found = told.find(branch.at("arc_length")[i].get<double>());
+    if (found != told.end()) {
+      EXPECT_EQ(found->second, branch.at("monitors").at("crown")[i].get<double>());
+      ++common;
+    }
+  }
+  EXPECT_GE(common, 3);
 }
 
 TEST(Library, AnotherThreadStopsACall) {

@@ -89,6 +89,16 @@ describe('the thirteen requests', () => {
   }
 });
 
+test('points of the growing path are those of the result', async () => {
+  const told = new Map();
+  const result = await solver.solve(text('arch'), {onProgress: ({arcLength, monitors}) => told.set(arcLength, monitors)});
+  const [branch] = result.branches;
+  const names = JSON.parse(text('arch')).model.monitors.map(({id}) => id);
+  const common = branch.arc_length.map((length, i) => [told.get(length), i]).filter(([monitors]) => monitors !== undefined);
+  assert.ok(common.length >= 3, `${common.length} of ${branch.arc_length.length}`);
+  for (const [monitors, i] of common) assert.deepEqual(monitors, names.map((name) => branch.monitors[name][i]));
+});
+
 test('a sweep of 500 points over two workers has the rows of the executable', async () => {
   const sweep = read('sweep_500.json');
   const told = [];
