@@ -71,9 +71,10 @@ bash scripts/clients_python_test.sh "build/$preset"
 step "tools for language models, by the protocol's client"
 bash scripts/mcp_test.sh "build/$preset/snapthrough"
 
-step "WebAssembly, in Node"
+step "WebAssembly, in Node, and in Python in WebAssembly"
 if [ "$preset" = release ]; then
   bash scripts/wasm.sh
+  bash scripts/wheel.sh none
 fi
 
 step "page without a service, in Chromium"

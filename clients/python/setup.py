@@ -5,7 +5,8 @@ The library is, the first that is there:
   must have (x86-64-v2, x86-64-v3, any);
 - build/release/libsnapthrough.so.1 of the checkout;
 - a new build in build/python of the checkout, by CMake;
-- none, where the sources of the library are not there: such a package asks a service, or finds a library that is installed.
+- none, where PYTHONSNAPTHROUGH_LIBRARIES is "none", or the sources of the library are not there: such a package asks a service,
+  finds a library that is installed, or runs in a browser (Pyodide), where the page gives it the solver.
 
 PYTHONSNAPTHROUGH_PLATFORM names the platform of a wheel whose libraries run elsewhere, such as manylinux_2_17_x86_64.
 """
@@ -26,11 +27,12 @@ except ImportError:  # setuptools before 70
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 NAME = "libsnapthrough.so.1"
+VARIABLE = "PYTHONSNAPTHROUGH_LIBRARIES"
 
 
 def given_libraries():
     """(folder, file) of the libraries that the environment names."""
-    pairs = filter(None, os.environ.get("PYTHONSNAPTHROUGH_LIBRARIES", "").split(";"))
+    pairs = filter(None, os.environ.get(VARIABLE, "").split(";"))
     return [(folder, pathlib.Path(file)) for folder, _, file in (pair.partition("=") for pair in pairs)]
 
 
@@ -53,13 +55,17 @@ def built_library():
 
 def brings_libraries():
     """Whether the package has libraries inside."""
+    if os.environ.get(VARIABLE) == "none":
+        return False
     return bool(given_libraries()) or (ROOT / "clients" / "c" / "snapthrough.map").is_file()
 
 
 def libraries():
     """(folder, file) of the libraries that the package brings."""
+    if not brings_libraries():
+        return []
     given = given_libraries()
-    if given or not brings_libraries():
+    if given:
         return given
     ready = ROOT / "build" / "release" / NAME
     return [("any", ready if ready.is_file() else built_library())]
@@ -75,7 +81,7 @@ class BuildWithLibraries(build_py):
         for folder, file in libraries():
             target = pathlib.Path(self.build_lib, "snapthrough", "native", folder)
             target.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, target / NAME)
+            shutil.copyfile(file, target / file.name)
 
     editable_mode = False
 

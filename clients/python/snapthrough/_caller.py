@@ -6,6 +6,7 @@ import threading
 from types import FrameType
 from typing import Any, Callable, List, Optional, Tuple
 
+from ._library import IN_BROWSER
 from ._progress import OnProgress, Progress
 
 #: Given to the library's callback: false stops the call.
@@ -84,7 +85,7 @@ def interruptible(function: Callable[[Step], Any], on_progress: Optional[OnProgr
     Python's own handler of SIGINT; a program's own handler runs when the call has returned.
     """
     global _watcher
-    if (threading.current_thread() is not threading.main_thread()
+    if (IN_BROWSER or threading.current_thread() is not threading.main_thread()
             or signal.getsignal(signal.SIGINT) is not signal.default_int_handler):
         return _plain(function, on_progress, lambda: False)
     pressed: List[int] = []

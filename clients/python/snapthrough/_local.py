@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _caller, _chunks, _engine, _library, _spans, results
+from ._browser import BrowserLibrary
 from ._buildable import to_json
 from ._errors import AnalysisFailed, Cancelled, Interrupted, LibraryNotFound, SnapthroughError, UsageError, invalid
 from ._library import Answer, Library
@@ -25,11 +26,11 @@ class Local:
 
     `library` is the path of libsnapthrough.so.1. By default that of the environment variable
     PYTHONSNAPTHROUGH_LIBRARY, else that of a checkout's build folder when the package stands in one, else the one
-    that the system's loader finds. Raises LibraryNotFound. Methods can be called from several threads at once.
+    that the system's loader finds. In a browser it is the module that the page gave. Raises LibraryNotFound. Methods can be called from several threads at once.
     """
 
     def __init__(self, library: Optional[Union[str, "os.PathLike[str]"]] = None) -> None:
-        self._library = Library(library)
+        self._library = BrowserLibrary() if _library.IN_BROWSER else Library(library)
 
     @property
     def version(self) -> str:
@@ -103,7 +104,8 @@ class Local:
         native = self._library.new_stop()
         ends = stop or Stop()
         if executor is None:
-            pool = _engine.Pool(functools.partial(ThreadPoolExecutor, workers or _engine.available_cores()))
+            threads = functools.partial(ThreadPoolExecutor, workers or _engine.available_cores())
+            pool = _engine.Pool(_engine.InThisThread if _library.IN_BROWSER else threads)
             task = functools.partial(_chunks.timed_chunk, self._library, document, native)
         else:
             pool = _engine.Pool(executor)
