@@ -136,7 +136,10 @@ def gallery(program, write, only=None):
         more_wrong, pages[name] = check_page(name, runs, write)
         wrong += more_wrong
     if not only:
-        wrong += check_text("README", filled("README", {}, {"cases": list(cases(pages))}), write)
+        index = filled("README", {}, {"cases": list(cases(pages))})
+        wrong += check_text("README", index, write)
+        if write:  # results of the problems of the page, which have no page of their own
+            draw({"figure": [{"file": f"page_{name}", "request": f"../{name}"} for name in re.findall(r'"page_(\w+)\.svg"', index)]}, runs)
     return wrong, sum(map(len, pages.values())), runs.seconds
 
 
