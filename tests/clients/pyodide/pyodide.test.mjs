@@ -15,6 +15,9 @@ const readme = readFileSync(new URL('../../../README.md', import.meta.url), 'utf
 /** The block of the README that begins with `import snapthrough`. */
 const column = () => /```python\n(import snapthrough[\s\S]*?)```/u.exec(readme)[1];
 
+/** A started module of the solver. */
+const started = async () => Module.start(await WebAssembly.compile(readFileSync(join(home, 'snapthrough.wasm'))));
+
 describe('the Python package in a browser', () => {
   let python;
   const said = [];
@@ -36,8 +39,7 @@ told`);
   });
 
   test('the column of the README', async () => {
-    const compiled = await WebAssembly.compile(readFileSync(join(home, 'snapthrough.wasm')));
-    python.registerJsModule('snapthrough_solver', await Module.start(compiled));
+    python.registerJsModule('snapthrough_solver', await started());
     said.length = 0;
     await python.runPythonAsync(column());
     const [load, type] = said.at(-1).split(' ');
@@ -71,8 +73,7 @@ json.dumps({"stopped": stopped, "seen": len(seen), "pointer": pointer, "svg": st
     const sweep = readFileSync(new URL('../sweep_500.json', import.meta.url), 'utf8');
     python.globals.set('document', sweep);
     const rows = JSON.parse(await python.runPythonAsync('json.dumps(st.sweep(document).table().rows)'));
-    const compiled = await WebAssembly.compile(readFileSync(join(home, 'snapthrough.wasm')));
-    const direct = JSON.parse((await Module.start(compiled)).sweep(sweep, 0, 500).text).rows;
+    const direct = JSON.parse((await started()).sweep(sweep, 0, 500).text).rows;
     assert.deepEqual(rows, direct);
   });
 });
