@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds the image of the service, starts it, and runs a job through it, with whichever builder is here: a docker
-# daemon, or buildah and podman without any daemon. Each step is printed.
+# Builds the image of the service of the archive in dist/, which scripts/archive.sh makes where there is none, starts it, and runs
+# a job through it, with whichever builder is here: a docker daemon, or buildah and podman without any daemon. Each step is printed.
 #   scripts/image.sh
-# JOBS=n compiles that many files at a time. BASE=image sets the base (debian:bookworm-slim). Without a network to a registry, and with mmdebstrap, the base is
-# made from the packages that this machine's apt knows. PORT=n sets the port (18080).
+# JOBS=n compiles that many files at a time. BASE=image sets the base (debian:bookworm-slim). Without a network to a registry, and
+# with mmdebstrap, the base is made from the packages that this machine's apt knows. PORT=n sets the port (18080).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 port="${PORT:-18080}"
@@ -12,8 +12,7 @@ name=snapthrough-image-test
 step() { echo "== $*" >&2; "$@"; }
 
 with_docker() {
-  step docker build --build-arg "BASE=${BASE:-debian:bookworm-slim}" --build-arg "JOBS=${JOBS:-}" \
-    --build-arg "SNAPTHROUGH_BUILD=$(git rev-parse --short=12 HEAD 2>/dev/null || true)" -f docker/Dockerfile -t snapthrough .
+  step docker build --build-arg "BASE=${BASE:-debian:bookworm-slim}" -f docker/Dockerfile -t snapthrough .
   step docker run -d --rm --name "$name" --network host --read-only --tmpfs /tmp --cap-drop ALL \
     --security-opt no-new-privileges -v "$name:/data" -e "SNAPTHROUGH_LISTEN=127.0.0.1:$port" snapthrough
   trap 'docker stop -t 15 "$name" >/dev/null' EXIT
@@ -35,18 +34,11 @@ make_base() {
 }
 
 with_buildah() {
-  local apt_copy volumes=()
   if ! buildah inspect --type image localhost/debian:bookworm-slim >/dev/null 2>&1 && [ -z "${BASE:-}" ]; then
     make_base
   fi
-  # The settings of this machine's apt serve the build too; they leave nothing in the image.
-  apt_copy="$(mktemp -d)"
-  cp -rL /etc/apt/. "$apt_copy"
-  volumes=(-v "$apt_copy:/etc/apt")
-  step buildah build --isolation chroot --network host --pull-never --format docker --layers "${volumes[@]}" \
-    --build-arg "BASE=${BASE:-localhost/debian:bookworm-slim}" --build-arg "JOBS=${JOBS:-}" \
-    --build-arg "SNAPTHROUGH_BUILD=$(git rev-parse --short=12 HEAD 2>/dev/null || true)" -f docker/Dockerfile -t localhost/snapthrough .
-  rm -rf "$apt_copy"
+  step buildah build --isolation chroot --network host --pull-never --format docker --layers \
+    --build-arg "BASE=${BASE:-localhost/debian:bookworm-slim}" -f docker/Dockerfile -t localhost/snapthrough .
   step podman --runtime runc run -d --rm --name "$name" --network host --ulimit nofile=20000:20000 \
     --ulimit nproc=20000:20000 --no-healthcheck --read-only --tmpfs /tmp --cap-drop ALL \
     --security-opt no-new-privileges -v "$name:/data" -e "SNAPTHROUGH_LISTEN=127.0.0.1:$port" localhost/snapthrough
@@ -67,6 +59,9 @@ use_it() {
 }
 
 mkdir -p build
+if ! ls dist/snapthrough-*-linux-x86_64.tar.gz >/dev/null 2>&1; then
+  step bash scripts/archive.sh
+fi
 if command -v docker >/dev/null && docker info >/dev/null 2>&1; then
   with_docker
 elif command -v buildah >/dev/null && command -v podman >/dev/null; then
