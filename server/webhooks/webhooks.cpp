@@ -167,7 +167,7 @@ std::optional<Delivery> Webhooks::take(Sender& sender, const std::stop_token& st
 StatusOr<std::optional<Delivery>> Webhooks::next(Sender& sender) {
   DeliveryStore& store = world_.store.deliveries();
   const std::chrono::milliseconds hold = 2 * world_.times.attempt;
-  UnderWay under_way = sender.host.under_way();
+  const UnderWay under_way = sender.host.under_way();
   if (sender.slow_owner) {
     UnderWay others = under_way;
     others.owners.push_back(*sender.slow_owner);
