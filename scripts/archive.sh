@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds dist/snapthrough-VERSION-linux-x86_64.tar.gz: the program with everything that it needs, for any Linux on x86-64 that
-# has /bin/sh. scripts/archive_test.sh tries it.
+# Builds dist/snapthrough-VERSION-linux-x86_64.tar.gz, in place of one that is there: the program with everything that it needs,
+# for any Linux on x86-64 that has /bin/sh. scripts/archive_test.sh tries the archive.
 #   scripts/archive.sh
 # JOBS=n compiles that many files at a time. SOURCE_DATE_EPOCH sets the dates inside; by default that of the commit.
 # SNAPTHROUGH_BUILD names the commit where the sources have no repository.
@@ -39,6 +39,7 @@ if [ -z "${SOURCE_DATE_EPOCH:-}" ]; then
   SOURCE_DATE_EPOCH="$(git log -1 --format=%ct 2>/dev/null || date +%s)"
 fi
 mkdir -p dist
+rm -f dist/snapthrough-*-linux-x86_64.tar.gz
 tar -C "$work" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --mode=go-w -cf - "$name" |
   gzip -9n >"dist/$name.tar.gz"
 ls -l "dist/$name.tar.gz"

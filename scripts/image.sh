@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds the image of the service of the archive in dist/, which scripts/archive.sh makes where there is none, starts it, and runs
-# a job through it, with whichever builder is here: a docker daemon, or buildah and podman without any daemon. Each step is printed.
+# Builds the archive (scripts/archive.sh) and of it the image of the service, starts it, and runs a job through it, with
+# whichever builder is here: a docker daemon, or buildah and podman without any daemon. Each step is printed.
 #   scripts/image.sh
 # JOBS=n compiles that many files at a time. BASE=image sets the base (debian:bookworm-slim). Without a network to a registry, and
-# with mmdebstrap, the base is made from the packages that this machine's apt knows. PORT=n sets the port (18080).
+# with mmdebstrap, that base is made of the packages that apt of this machine can install. PORT=n sets the port (18080).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 port="${PORT:-18080}"
@@ -59,9 +59,7 @@ use_it() {
 }
 
 mkdir -p build
-if ! ls dist/snapthrough-*-linux-x86_64.tar.gz >/dev/null 2>&1; then
-  step bash scripts/archive.sh
-fi
+step bash scripts/archive.sh
 if command -v docker >/dev/null && docker info >/dev/null 2>&1; then
   with_docker
 elif command -v buildah >/dev/null && command -v podman >/dev/null; then

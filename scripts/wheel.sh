@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds a wheel of the Python package into dist/, with the library inside, and solves with that what tests/clients has.
-#   scripts/wheel.sh [x86_64]    Linux with glibc 2.17 or later; the processor decides which of two libraries is taken
+#   scripts/wheel.sh [x86_64]    for Linux with glibc 2.17 or later, with two libraries inside: the package loads the one for
+#                                x86-64-v3 where the processor has those instructions, else the one for x86-64-v2
 #   scripts/wheel.sh none        without a library: for a service, and for Python in a browser (Pyodide), in which it is tried
 # JOBS=n compiles that many files at a time. SOURCE_DATE_EPOCH sets the dates inside; by default that of the commit.
 set -euo pipefail

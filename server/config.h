@@ -32,7 +32,7 @@ struct ServiceConfig {
   std::vector<http::ApiKey> keys;             ///< accepted keys; empty: requests are not authenticated
   std::vector<std::string> allowed_origins;   ///< origins whose pages may use the service; exact match
   std::string store_path = "snapthrough.db";  ///< SQLite file in an existing folder, or postgresql://...
-  int store_connections = 4;                  ///< connections to a database that requests have at most
+  int store_connections = 4;                  ///< connections to a database, beside one for each worker
   int workers = 1;  ///< analyses at a time, <= 1024; 0: processes that share the store work
   std::string runner_executable = own_executable();  ///< path of snapthrough; runners are started from it
   JobLimits jobs;                                    ///< queue, leases, retention, callback hosts

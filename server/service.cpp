@@ -91,13 +91,13 @@ std::optional<DiskGuard> disk_guard(const ServiceConfig& config) {
                    static_cast<std::uint64_t>(config.least_free_bytes));
 }
 
-/// Returns the key that signs callbacks; "" without callbacks.
-/// Connections to a database: a worker has one for itself when it claims and when it stores, so that none of
-/// them waits while requests have all others.
+/// Returns the largest number of connections to a database: those for requests, and one for each worker and
+/// spare worker, so that no worker waits for a connection while requests have all of theirs.
 int connections_of(const ServiceConfig& config) {
   return config.store_connections + (config.workers > 0 ? config.workers + config.jobs.spare_workers : 0);
 }
 
+/// Returns the key that signs callbacks; "" without callbacks.
 StatusOr<std::string> callback_key(const ServiceConfig& config) {
   if (config.jobs.callback_hosts.empty() || !config.front) {
     return std::string();

@@ -227,7 +227,7 @@ std::vector<Setting> job_settings() {
             [](ServiceConfig& c) -> int& { return c.workers; }),
       whole("spare_workers",
             "Most analyses beside those of the workers: for owners for whom nothing runs while all workers "
-            "are held",
+            "are busy",
             [](ServiceConfig& c) -> int& { return c.jobs.spare_workers; }),
       whole("max_queue", "Jobs that may wait; the next is refused with 429",
             [](ServiceConfig& c) -> int& { return c.jobs.queue; }),

@@ -81,7 +81,7 @@ class BuildWithLibraries(build_py):
         for folder, file in libraries():
             target = pathlib.Path(self.build_lib, "snapthrough", "native", folder)
             target.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, target / file.name)
+            shutil.copyfile(file, target / NAME)
 
     editable_mode = False
 

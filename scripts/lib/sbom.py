@@ -3,7 +3,8 @@
 
   sbom.py NAME VERSION FOLDER    writes FOLDER/sbom.cdx.json and FOLDER/licences/
 
-Libraries are those of FOLDER/lib; dpkg tells the package, source and version of each. Libraries of headers alone are compiled in.
+The list has the libraries of FOLDER/lib, with package, source and version as dpkg tells them, and the libraries that consist of
+headers, which are compiled into the program.
 """
 import hashlib
 import json
@@ -12,7 +13,7 @@ import shutil
 import subprocess
 import sys
 
-COMPILED_IN = ("libeigen3-dev", "nlohmann-json3-dev", "libcli11-dev")  # headers alone
+COMPILED_IN = ("libeigen3-dev", "nlohmann-json3-dev", "libcli11-dev")  # packages of libraries that consist of headers
 
 
 def told(*command):

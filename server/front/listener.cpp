@@ -144,17 +144,24 @@ void Listener::Server::event(const ClientPointer& client, std::uint32_t events) 
     }
     lock.lock();
   }
-  with_memory(client, [&] { attend(client, events); });
+  counted(client, [&] { attend(client, events); });
 }
 
-/// Does something for a client, and counts the processor time of that as used by its party. Ends the
-/// connection when that throws, most likely for want of memory.
+/// Does something for a client, and counts the processor time of that as used by its party.
 template <class Use>
-void Listener::Server::with_memory(const ClientPointer& client, const Use& use) {
-  const std::chrono::nanoseconds before = processor_time();
-  try {
+void Listener::Server::counted(const ClientPointer& client, const Use& use) {
+  with_memory(client, [&] {
+    const std::chrono::nanoseconds before = processor_time();
     use();
     use_.add(client->party, processor_time() - before);
+  });
+}
+
+/// Does something for a client. Ends the connection when that throws, most likely for want of memory.
+template <class Use>
+void Listener::Server::with_memory(const ClientPointer& client, const Use& use) {
+  try {
+    use();
   } catch (const std::exception&) {
     ++without_memory_;
     give_up(client);
@@ -560,7 +567,7 @@ void Listener::Server::woken(const Wake& wake) {
   if (wake.turns == nullptr && !is_low && gives_way(*client)) {
     return this->wake(low_, wake);
   }
-  with_memory(client, [&] { resume(client, wake); });
+  counted(client, [&] { resume(client, wake); });
 }
 
 /// Continues with a client that waited for its turn or for an event.

@@ -104,6 +104,8 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   void end_idle(const ClientPointer& client, Clock::time_point now);
 
   template <class Use>
+  void counted(const ClientPointer& client, const Use& use);
+  template <class Use>
   void with_memory(const ClientPointer& client, const Use& use);
   void give_up(const ClientPointer& client);
   void event(const ClientPointer& client, std::uint32_t events);

@@ -9,6 +9,7 @@
 
 #include "server/bell.h"
 #include "server/jobs/path_batch.h"
+#include "server/priority.h"
 #include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
@@ -22,8 +23,6 @@ constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kLongestSharedNap{10.0};
 /// Value of WorkerPool::busy_since_ and spare_began_ for a worker that waits for work.
 constexpr double kWaits = std::numeric_limits<double>::infinity();
-/// Work that has taken longer is long; its process gives way from then on, too.
-constexpr duration<double> kLong{1.0};
 /// Pause before another attempt to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
 
@@ -286,10 +285,10 @@ void WorkerPool::wait_as_spare(std::uint64_t& seen, const std::stop_token& stop)
   pause(stop, context_.limits.spare_after);
 }
 
-/// Whether less than half of the spare workers are at work that has taken long: only then one more may begin
-/// the work of an owner who uses much processor time.
-bool WorkerPool::are_spares_left() const {
-  const double before = now() - kLong.count();
+/// Whether fewer than half of the spare workers are at work that has taken longer than kShort. Otherwise no
+/// spare worker begins the work of an owner who uses much processor time.
+bool WorkerPool::are_few_spares_at_long_work() const {
+  const double before = now() - duration<double>(kShort).count();
   const auto at_long_work = std::count_if(spare_began_.begin(), spare_began_.end(),
                                           [&](const auto& began) { return began < before; });
   return 2 * at_long_work < std::ssize(spare_began_);
@@ -303,7 +302,8 @@ void WorkerPool::run_spare(std::size_t number, const std::stop_token& stop) {
     wait_as_spare(seen, stop);
     bool worked = true;
     while (worked && are_busy() && !stop.stop_requested()) {
-      const OwnersInTurn owners{true, are_spares_left() ? std::vector<std::string>() : use_.of_much()};
+      const OwnersInTurn owners{true,
+                                are_few_spares_at_long_work() ? std::vector<std::string>() : use_.of_much()};
       began = now();
       worked = context_.waiting.value() > 0 && claim_and_work(runners, stop, owners);
       worked = context_.sweeps.do_next(runners, stop, owners) || worked;

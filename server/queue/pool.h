@@ -31,9 +31,9 @@ void work_on(const Handoff& handoff, const WorkerContext& context, Runners& runn
 /// outlive the object.
 ///
 /// While all workers have been busy for JobLimits::spare_after, spare ones work for owners for whom nothing
-/// of the kind (jobs, sweeps) runs: the long work of some owners does not stop the others. While half of them
-/// are at long work, they begin no work of owners who use much processor time. A spare worker has a runner
-/// from its first work on.
+/// of the kind (jobs, sweeps) runs: the long work of some owners does not stop the others. While half of the
+/// spare workers are at work that has taken longer than kShort, none of them begins the work of an owner who
+/// uses much processor time. A spare worker has a runner from its first work on.
 class WorkerPool {
  public:
   /// @param make makes the runner of a thread; called once on each
@@ -51,7 +51,7 @@ class WorkerPool {
  private:
   void run(std::size_t number, const std::stop_token& stop);
   void run_spare(std::size_t number, const std::stop_token& stop);
-  [[nodiscard]] bool are_spares_left() const;
+  [[nodiscard]] bool are_few_spares_at_long_work() const;
   void wait_as_spare(std::uint64_t& seen, const std::stop_token& stop);
   [[nodiscard]] bool is_left() const;
   bool claim_and_work(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners = {});
@@ -60,9 +60,10 @@ class WorkerPool {
 
   const WorkerContext& context_;
   RunnerFactory make_;
-  /// Time of the monotonic clock since which each worker has been busy; infinite: it waits for work.
+  /// Second of the monotonic clock since which each worker has been busy; infinite: it waits for work.
   std::vector<std::atomic<double>> busy_since_;
-  /// Time at which each spare worker began its present work; infinite: it waits for some.
+  /// Second of the monotonic clock at which each spare worker began its present work; infinite: it waits for
+  /// work.
   std::vector<std::atomic<double>> spare_began_;
   RecentUse use_;       ///< processor time that computing for each owner took
   std::mutex on_duty_;  ///< one spare worker at a time looks for work

@@ -35,9 +35,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Interval at which UnitTask::enough is asked.
 constexpr std::chrono::milliseconds kLook{20};
-/// Time after which a job, or a unit of a sweep, gives way to shorter ones: its process gets a lower
-/// priority.
-constexpr std::chrono::milliseconds kShort{1000};
 /// Bytes of a frame in addition to the memory limit of an analysis.
 constexpr std::uint64_t kMostBeside = 1 << 20;
 /// Largest size in bytes of one news frame of a running analysis.

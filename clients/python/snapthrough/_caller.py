@@ -2,13 +2,15 @@
 import os
 import signal
 import socket
+import sys
 import threading
 from types import FrameType
 from typing import Any, Callable, List, Optional, Tuple
 
-from ._library import IN_BROWSER
 from ._progress import OnProgress, Progress
 
+#: Whether Python itself runs as WebAssembly (Pyodide): it has one thread and loads no library.
+IN_BROWSER = sys.platform == "emscripten"
 #: Given to the library's callback: false stops the call.
 Step = Callable[[Progress], bool]
 

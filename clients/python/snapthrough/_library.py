@@ -3,7 +3,6 @@ import ctypes
 import ctypes.util
 import os
 import pathlib
-import sys
 from dataclasses import dataclass
 from typing import Any, Callable, List, Optional, Tuple, Union
 
@@ -13,8 +12,6 @@ from ._progress import Progress
 NAME = "libsnapthrough.so.1"
 #: Names that begin with SNAPTHROUGH_ are settings of the service, which refuses those that it does not know.
 VARIABLE = "PYTHONSNAPTHROUGH_LIBRARY"
-#: Whether Python itself runs as WebAssembly (Pyodide): it has one thread and loads no library.
-IN_BROWSER = sys.platform == "emscripten"
 
 DONE, WRONG_USE, WRONG_REQUEST, NOT_COMPLETED, CANCELLED, OUT_OF_MEMORY, INTERNAL_ERROR = range(7)
 

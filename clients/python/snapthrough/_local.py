@@ -26,11 +26,12 @@ class Local:
 
     `library` is the path of libsnapthrough.so.1. By default that of the environment variable
     PYTHONSNAPTHROUGH_LIBRARY, else that of a checkout's build folder when the package stands in one, else the one
-    that the system's loader finds. In a browser it is the module that the page gave. Raises LibraryNotFound. Methods can be called from several threads at once.
+    that the system's loader finds. In a browser (Pyodide) it is the module that the page registered, whatever
+    `library` is. Raises LibraryNotFound. Methods can be called from several threads at once.
     """
 
     def __init__(self, library: Optional[Union[str, "os.PathLike[str]"]] = None) -> None:
-        self._library = BrowserLibrary() if _library.IN_BROWSER else Library(library)
+        self._library = BrowserLibrary() if _caller.IN_BROWSER else Library(library)
 
     @property
     def version(self) -> str:
@@ -105,7 +106,7 @@ class Local:
         ends = stop or Stop()
         if executor is None:
             threads = functools.partial(ThreadPoolExecutor, workers or _engine.available_cores())
-            pool = _engine.Pool(_engine.InThisThread if _library.IN_BROWSER else threads)
+            pool = _engine.Pool(_engine.InThisThread if _caller.IN_BROWSER else threads)
             task = functools.partial(_chunks.timed_chunk, self._library, document, native)
         else:
             pool = _engine.Pool(executor)

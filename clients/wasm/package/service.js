@@ -5,7 +5,7 @@ import { Status } from './module.js';
 
 const kProblem = 'urn:snapthrough:problem:';
 const kJobs = 50;  // finished ones that are kept
-const MONITORS = 100;  // of which points are told
+const kMonitors = 100;  // whose values are told with the points of a growing path, as by the service
 const MESSAGES = { running: 'runs', successful: 'the result is ready', dismissed: 'the owner dismissed it' };
 
 const json = (status, body, headers = {}) =>
@@ -293,7 +293,7 @@ function pointsOf({ model }, now) {
   return {
     branch: [now.branch], step: [now.done], load_factor: [now.loadFactor], arc_length: [now.arcLength],
     negative_eigenvalues: [now.negativeEigenvalues],
-    monitors: now.monitors.slice(0, MONITORS).map((value, i) => ({ id: model.monitors[i].id, values: [value] })),
+    monitors: now.monitors.slice(0, kMonitors).map((value, i) => ({ id: model.monitors[i].id, values: [value] })),
   };
 }
 
