@@ -1,9 +1,25 @@
 #include "server/jobs/active_jobs.h"
 
+#include <chrono>
+
 namespace snapthrough::server {
 
-ActiveJobs::Entry::Entry(ActiveJobs& active, const Claim& claim, Time since)
-    : active_(active), claim_{claim.id, claim.attempt}, since_(since) {
+namespace {
+
+/// Whether the store has the job that `stored` is about, see ActiveJobs::Entry.
+bool has_it(const std::shared_future<bool>& stored) {
+  return !stored.valid() ||
+         (stored.wait_for(std::chrono::seconds(0)) == std::future_status::ready && stored.get());
+}
+
+}  // namespace
+
+ActiveJobs::Entry::Entry(ActiveJobs& active, const Claim& claim, Time since,
+                         const std::shared_future<bool>* stored)
+    : active_(active),
+      claim_{claim.id, claim.attempt},
+      since_(since),
+      stored_(stored == nullptr ? std::shared_future<bool>() : *stored) {
   const std::lock_guard guard(active_.mutex_);
   active_.entries_.emplace(claim_.id, this);
 }
@@ -53,11 +69,11 @@ void ActiveJobs::stop_older(Time since, StopReason reason) {
   }
 }
 
-std::vector<Claim> ActiveJobs::older(Time since) const {
+std::vector<Claim> ActiveJobs::stored_before(Time since) const {
   const std::lock_guard guard(mutex_);
   std::vector<Claim> claims;
   for (const auto& [id, entry] : entries_) {
-    if (entry->since_ < since) {
+    if (entry->since_ < since && has_it(entry->stored_)) {
       claims.push_back(entry->claim_);
     }
   }

@@ -3,6 +3,7 @@
 /// Jobs that run in this process, and requests to stop them.
 
 #include <cstddef>
+#include <future>
 #include <mutex>
 #include <stop_token>
 #include <string>
@@ -23,7 +24,8 @@ class ActiveJobs {
   /// Registers a job for as long as the entry exists.
   class Entry {
    public:
-    Entry(ActiveJobs& active, const Claim& claim, Time since);
+    /// @param stored as Handoff::stored; null: the store has the job
+    Entry(ActiveJobs& active, const Claim& claim, Time since, const std::shared_future<bool>* stored);
     ~Entry();
     Entry(const Entry&) = delete;
     Entry& operator=(const Entry&) = delete;
@@ -40,6 +42,7 @@ class ActiveJobs {
     ActiveJobs& active_;
     Claim claim_;
     Time since_;
+    std::shared_future<bool> stored_;  ///< without state: the store has the job
     StopReason reason_ = StopReason::none;
     std::stop_source stop_;
   };
@@ -48,8 +51,9 @@ class ActiveJobs {
   void stop(const std::string& id, StopReason reason);
   /// Asks every analysis to stop that began before `since`.
   void stop_older(Time since, StopReason reason);
-  /// Claims, without documents, of the jobs that began before `since`.
-  [[nodiscard]] std::vector<Claim> older(Time since) const;
+  /// Claims, without documents, of the jobs that began before `since` and that the store has: one that it is
+  /// still to take has no lease there that could be renewed or lost.
+  [[nodiscard]] std::vector<Claim> stored_before(Time since) const;
   [[nodiscard]] std::size_t count() const;
   [[nodiscard]] bool has(const std::string& id) const;
 

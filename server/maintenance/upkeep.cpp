@@ -93,7 +93,7 @@ void Upkeep::keep_leases(Time now, Time steady) {
 /// `now`. Returns whether the store did it.
 bool Upkeep::renew_leases(Time since, Time until, Time now) {
   const bool units = context_.sweeps.renew_leases(since, until, now);
-  const std::vector<Claim> held = context_.active.older(since);
+  const std::vector<Claim> held = context_.active.stored_before(since);
   if (held.empty()) {
     return units;
   }

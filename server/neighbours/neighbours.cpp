@@ -122,7 +122,7 @@ void Neighbours::pass_on_progress() {
 /// Stores the progress of this process' analyses for other processes.
 void Neighbours::tell_progress() {
   std::vector<ToldProgress> all;
-  for (const Claim& claim : context_.active.older(Time::max())) {
+  for (const Claim& claim : context_.active.stored_before(Time::max())) {
     const auto number = context_.progress.get(claim.id, &JobNews::number);
     const auto progress = context_.progress.get(claim.id, &JobNews::progress).value_or(std::nullopt);
     if (number && progress) {

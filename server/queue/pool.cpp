@@ -165,7 +165,7 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
     context.metrics.waiting.observe(std::max(0.0, waited.count()));
   }
   const double begun = context.environment.monotonic_seconds();
-  ActiveJobs::Entry entry(context.active, claim, steady_time(context.environment));
+  ActiveJobs::Entry entry(context.active, claim, steady_time(context.environment), stored);
   const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
   JobRun outcome =
       runners.of(claim.owner).run_job(claim.document, told_hooks(claim, context.progress, entry.token()));
