@@ -202,6 +202,28 @@ TEST_F(ClusterTest, TheClockOfAProcessDoesNotMatter) {
   }
 }
 
+/// A job that a worker began before the database has it holds no lease yet: none can be lost.
+TEST_F(ClusterTest, AJobThatTheDatabaseTakesLateIsNotLost) {
+  ServiceConfig alone = config();
+  alone.store_path = location_;
+  service_ = std::make_unique<Service>(alone, Environment::system(), local_runners(gated(solver_)), log_);
+  ASSERT_TRUE(service_->start().ok());
+  postgresql::Connection database(location_);
+  database.run("BEGIN");
+  database.run("LOCK TABLE requests IN EXCLUSIVE MODE");
+  Reply reply;
+  std::thread client([&] {
+    reply = post(port(), "/v1/jobs", column_request("late"),
+                 {"Content-Type: application/json", "Prefer: wait=20"});
+  });
+  solver_->wait_started(1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // leases are renewed each second
+  database.run("COMMIT");
+  solver_->open();
+  client.join();
+  EXPECT_EQ(reply.status, 200) << reply.body;
+}
+
 TEST_F(ClusterTest, WithoutAWorkerAJobWaits) {
   const std::string job = submit();
   EXPECT_EQ(json::parse(get(port(), job).body)["status"], "accepted");

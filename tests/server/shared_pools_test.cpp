@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -160,6 +161,59 @@ TEST_F(SharedPools, LongWorkOfOneOwnerOnAllWorkersDoesNotStopOthers) {
        {std::pair(first, kAnn), std::pair(second, kAnn), std::pair(of_bob, kBob)}) {
     EXPECT_TRUE(eventually([&] { return status(path, headers) == "successful"; })) << path;
   }
+}
+
+/// Uses the processor for that long, whatever else runs on the machine.
+void use_processor(std::chrono::duration<double> time) {
+  const auto used = [] {
+    timespec spent{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+    return std::chrono::seconds(spent.tv_sec) + std::chrono::nanoseconds(spent.tv_nsec);
+  };
+  for (const auto begin = used(); used() - begin < time;) {
+  }
+}
+
+TEST_F(SharedPools, LongWorkDoesNotFillTheSpareWorkersForWhoUsesMuch) {
+  const auto gate = std::make_shared<GatedSolver>();
+  ServiceConfig narrow = keyed();
+  narrow.keys.push_back({"cid", "4c26d9074c27d89ede59270c0ac14b71e071b15239519f75474b2f3ba63481f5"});
+  narrow.keys.push_back({"dora", "69db31976ead37b85cc42a49c95fd06eec99cfd9b7ff219a25c0f59cb4049343"});
+  narrow.workers = 1;
+  narrow.jobs.spare_workers = 2;
+  narrow.jobs.spare_after = 100ms;
+  start_with(narrow, [gate](const Model& model, const Analysis& analysis, const Hooks& hooks) {
+    if (model.title == "short") {
+      return Result{};
+    }
+    if (model.title == "costly") {
+      use_processor(2.5s);
+      return Result{};
+    }
+    return (*gate)(model, analysis, hooks);
+  });
+  const auto submitted = [&](const std::string& title, const std::string& key) {
+    return post(port(), "/v1/jobs", column_request(title),
+                {"Content-Type: application/json", "Prefer: respond-async", "Authorization: Bearer " + key})
+        .header("Location");
+  };
+  const auto status = [&](const std::string& path, const std::string& key) -> std::string {
+    return json::parse(get(port(), path, {"Authorization: Bearer " + key}).body)["status"];
+  };
+  submitted("held", "alice");
+  gate->wait_started(1);
+  submitted("held", "carol");
+  gate->wait_started(2);
+  const std::string costly = submitted("costly", "bob");
+  EXPECT_TRUE(eventually([&] { return status(costly, "bob") == "successful"; }));
+  // half of the spare workers have been at long work for over a second now, and Bob has used much
+  const std::string waits = submitted("short", "bob");
+  const std::string goes = submitted("short", "dora");
+  EXPECT_TRUE(eventually([&] { return status(goes, "dora") == "successful"; }));
+  EXPECT_EQ(status(waits, "bob"), "accepted");
+  EXPECT_TRUE(eventually([&] { return status(waits, "bob") == "successful"; }))
+      << "what Bob used is forgotten";
+  gate->open();
 }
 
 TEST_F(SharedPools, LongJobsOnAllWorkersDoNotStopSweeps) {
