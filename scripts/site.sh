@@ -27,6 +27,7 @@ for folder in . thesis performance gallery; do
   mkdir -p "$site/docs/$folder"
   find "docs/$folder" -maxdepth 1 \( -name '*.md' -o -name '*.svg' \) -exec cp -t "$site/docs/$folder" {} +
 done
+cp examples/gallery/*.json "$site/docs/gallery/"
 
 # documents that the service makes
 work="$(mktemp -d)"

@@ -1,8 +1,10 @@
-# Turns web/dist (index.html and assets/*) and the documents for users (docs/*, with thesis, performance and gallery) into one
-# C++ source that defines what page.h declares: each file gzip'd, with the digest of its content.
-function(embed_page dist docs output)
+# Turns web/dist (index.html and assets/*), the documents for users (docs/*, with thesis, performance and gallery) and the requests
+# of the gallery, which lie beside its documents there, into one C++ source that defines what page.h declares: each file gzip'd,
+# with the digest of its content.
+function(embed_page dist docs requests output)
   file(GLOB files CONFIGURE_DEPENDS ${dist}/index.html ${dist}/assets/* ${docs}/*.md ${docs}/*.svg ${docs}/thesis/*.md
-       ${docs}/thesis/*.svg ${docs}/performance/*.md ${docs}/performance/*.svg ${docs}/gallery/*.md ${docs}/gallery/*.svg)
+       ${docs}/thesis/*.svg ${docs}/performance/*.md ${docs}/performance/*.svg ${docs}/gallery/*.md ${docs}/gallery/*.svg
+       ${requests}/*.json)
   list(SORT files)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   set(arrays "")
@@ -10,6 +12,7 @@ function(embed_page dist docs output)
   set(number 0)
   foreach(file IN LISTS files)
     string(REPLACE ${docs}/ /docs/ path ${file})
+    string(REPLACE ${requests}/ /docs/gallery/ path ${path})
     string(REPLACE ${dist}/ / path ${path})
     string(REGEX REPLACE "^/index.html$" / path ${path})
     file(SHA256 ${file} digest)

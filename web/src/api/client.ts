@@ -74,6 +74,10 @@ class PageClient extends Client {
   async document(name: string): Promise<string> {
     return (await this.call(`/docs/${name}.md`)).text();
   }
+  /** A request that lies beside the documents. @param name such as gallery/liner */
+  requestOfDocument(name: string): Promise<RequestDocument> {
+    return this.read<RequestDocument>(`/docs/${name}.json`);
+  }
 }
 
 /** Warnings are shown with the result. */

@@ -53,7 +53,7 @@ export function linkTarget(from: string, href: string): string | null {
   const [path = "", section = ""] = href.split("#");
   if (path === "") return documentAddress(from, section);
   if (path.endsWith("openapi.json")) return documentAddress("interface");
-  const example = /(?:^|\/)examples\/([a-z0-9_]+)\.json$/.exec(path);
+  const example = /(?:^|\/)examples\/((?:gallery\/)?[a-z0-9_]+)\.json$/.exec(path);
   if (example?.[1]) return `#/studio?example=${example[1]}`;
   const file = resolved(from, path);
   if (file === null || !kServed.test(file)) return null;

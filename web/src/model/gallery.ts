@@ -1,36 +1,24 @@
-// The gallery: real problems, each an example of the repository (examples/NAME.json), with the sliders that matter.
+// The gallery: problems, each a request of the repository (examples/NAME.json), with the sliders that matter.
 
-import type { Slider, Target } from "./sliders";
+import { foundations, wall, type Slider, type Target } from "./sliders";
 
 /** What is chosen when a problem is opened: the first loss of stability, or a share of a branch's way. */
 export type Choice = { kind: "critical" } | { kind: "along"; branch: number; share: number };
 
 export interface Problem {
+  /** NAME of examples/NAME.json. */
   example: string;
-  /** Also that of its section in docs/gallery.md. */
+  /** Also that of its section in docs/gallery.md, or of its own document docs/EXAMPLE.md, where `document` is set. */
   heading: string;
   /** What is seen, in two sentences. */
   text: string;
   sliders: Slider[];
   choice: Choice;
+  /** Its own document, docs/NAME.md, and the picture of its result there. */
+  document?: { name: string; picture: string };
 }
 
-function foundations(count: number, field: string, scale = 1): { pointer: string; scale: number }[] {
-  return Array.from({ length: count }, (_, i) => ({ pointer: `/model/foundations/${i}/${field}`, scale }));
-}
-
-/** A plate strip of width 1 m and thickness t in mm, of modulus E in kN/m². */
-function wall(modulus: number, min: number, max: number): Slider {
-  return {
-    name: "Wall thickness", unit: "mm", min, max, log: false, step: 0.5,
-    targets: [
-      { pointer: "/model/sections/0/EI", scale: modulus * 1e-9 / 12, power: 3 },
-      { pointer: "/model/sections/0/EA", scale: modulus * 1e-3 },
-    ],
-  };
-}
-
-const kBuriedPipe: Problem = {
+export const kBuriedPipe: Problem = {
   example: "buried_pipe",
   heading: "Buried flexible pipe",
   text: "The soil can only push, and the ground above presses with 10 kN/m² times the load factor. At the limit load the crown snaps through.",
@@ -42,7 +30,7 @@ const kBuriedPipe: Problem = {
   choice: { kind: "critical" },
 };
 
-const kTunnelArch: Problem = {
+export const kTunnelArch: Problem = {
   example: "tunnel_arch",
   heading: "Tunnel arch in the ground",
   text: "The crown goes down and the haunches press into the ground, which holds them. Stiffer ground moves the limit point " +
@@ -79,7 +67,7 @@ const kPile: Problem = {
   choice: { kind: "critical" },
 };
 
-const kWalls: Problem = {
+export const kWalls: Problem = {
   example: "column_between_walls",
   heading: "Strip between two walls",
   text: "The strip bows until it lies on a wall, where it can bear more. Then it snaps and touches both walls.",
@@ -175,6 +163,6 @@ const kUnequalBays: Problem = {
   choice: { kind: "along", branch: 0, share: 0.16 },
 };
 
-export const kProblems: readonly Problem[] = [
+export const kGallery: readonly Problem[] = [
   kBuriedPipe, kTunnelArch, kWalls, kPile, kPortal, kPipeline, kFilm, kBareArch, kUnequalBays, kModes,
 ];

@@ -114,3 +114,19 @@ export function parameterOf(slider: Slider, name: string, from: number, to: numb
     range: { from, to, count, ...(slider.log && from > 0 ? { spacing: "log" as const } : {}) },
   } as SweepParameter;
 }
+
+/** Targets in a field of the first foundations. */
+export function foundations(count: number, field: string, scale = 1): { pointer: string; scale: number }[] {
+  return Array.from({ length: count }, (_, i) => ({ pointer: `/model/foundations/${i}/${field}`, scale }));
+}
+
+/** A plate strip of width 1 m and thickness t in mm, of modulus E in kN/m². */
+export function wall(modulus: number, min: number, max: number): Slider {
+  return {
+    name: "Wall thickness", unit: "mm", min, max, log: false, step: 0.5,
+    targets: [
+      { pointer: "/model/sections/0/EI", scale: modulus * 1e-9 / 12, power: 3 },
+      { pointer: "/model/sections/0/EA", scale: modulus * 1e-3 },
+    ],
+  };
+}

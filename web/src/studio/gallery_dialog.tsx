@@ -5,19 +5,50 @@ import { useMemo, useRef, useState } from "preact/hooks";
 import type { RequestDocument } from "../api/documents";
 import { shapeNode } from "../app/shape_view";
 import { drawingFigure } from "../figures";
-import { kProblems, type Problem } from "../model/gallery";
+import { kGallery, type Problem } from "../model/gallery";
+import { kPractice } from "../model/practice";
 import { loadExamples } from "./session";
 
 const kThumb = { width: 320, height: 170 };  // scaled down by the style sheet
 
-function Thumb({ request }: { request: RequestDocument | undefined }) {
+function Thumb({ problem, request }: { problem: Problem; request: RequestDocument | undefined }) {
   const picture = useMemo(() => {
     if (!request) return null;
     const { nodes, sections, members, supports = [], springs = [], foundations = [] } = request.model;
     const bare = { nodes, sections, members, supports, springs, foundations };
     return shapeNode(drawingFigure({ model: bare, caption: false, dimensions: false }, kThumb));
   }, [request]);
-  return <div class="thumb" aria-hidden="true">{picture}</div>;
+  const { document: own } = problem;
+  return (
+    <div class="thumb" aria-hidden="true">{own ? <img src={`docs/${own.picture}`} alt="" loading="lazy" /> : picture}</div>
+  );
+}
+
+interface ListProps {
+  name: string;
+  problems: readonly Problem[];
+  chosen: Problem | null;
+  examples: Map<string, RequestDocument> | null;
+  onChoose: (problem: Problem) => void;
+}
+
+function ProblemList({ name, problems, chosen, examples, onChoose }: ListProps) {
+  return (
+    <>
+      <h3>{name}</h3>
+      <ul>
+        {problems.map((problem) => (
+          <li key={problem.example}>
+            <button type="button" aria-current={problem === chosen} onClick={() => onChoose(problem)}>
+              <Thumb problem={problem} request={examples?.get(problem.example)} />
+              <strong>{problem.heading}</strong>
+              <span>{problem.text}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </>
+  );
 }
 
 interface Gallery {
@@ -35,23 +66,15 @@ export function useGallery(chosen: Problem | null, onChoose: (problem: Problem) 
     loadExamples().then(setExamples, () => undefined);
   };
   const close = (): void => dialog.current?.close();
+  const lists = { chosen, examples, onChoose: (problem: Problem): void => {
+    close();
+    onChoose(problem);
+  } };
   return { open, dialog: (
     <dialog ref={dialog} class="gallery" aria-label="Gallery" onClick={(event) => (event.target === dialog.current ? close() : undefined)}>
       <header class="card-head"><h2>Gallery</h2><button type="button" onClick={close}>Close</button></header>
-      <ul>
-        {kProblems.map((problem) => (
-          <li key={problem.example}>
-            <button type="button" aria-current={problem === chosen} onClick={() => {
-              close();
-              onChoose(problem);
-            }}>
-              <Thumb request={examples?.get(problem.example)} />
-              <strong>{problem.heading}</strong>
-              <span>{problem.text}</span>
-            </button>
-          </li>
-        ))}
-      </ul>
+      <ProblemList name="To begin with" problems={kGallery} {...lists} />
+      <ProblemList name="From practice, with design charts and published values" problems={kPractice} {...lists} />
     </dialog>
   ) };
 }

@@ -3,8 +3,9 @@
 import type { Branch, PathPointsEvent, RequestDocument, Result } from "../api/documents";
 import { connection, idOf, isAbort, Refused, service, type Answer } from "../api/client";
 import { Latest, type Question } from "../api/latest";
-import { kProblems, type Choice, type Problem } from "../model/gallery";
+import type { Choice, Problem } from "../model/gallery";
 import { forPictures, forWalking } from "../model/prepare";
+import { kProblems } from "../model/problems";
 import { merged, stationsOf, type Run } from "../model/run";
 import { fits, valueOf, withSlider, type Slider } from "../model/sliders";
 import { formatNumber } from "../figures/numbers";
@@ -267,10 +268,11 @@ export function takeDocument(request: RequestDocument): void {
   else void openAny(request);
 }
 
-/** Opens an example of the service, with the sliders of the gallery where it is there. */
+/** Opens an example of the service, or a request beside a document (gallery/NAME), with the sliders of the gallery where it is
+ *  there. */
 export async function openExample(name: string): Promise<void> {
   try {
-    const request = (await loadExamples()).get(name);
+    const request = name.includes("/") ? await service.requestOfDocument(name) : (await loadExamples()).get(name);
     if (request) openRequest(request, kProblems.find(({ example }) => example === name) ?? null);
     else openFirst();
   } catch (error) {

@@ -6,7 +6,8 @@ import { go } from "../app/router";
 import { useNarrow } from "../app/size";
 import { documentAddress, sectionName } from "../docs/contents";
 import { formatNumber, type PathShadow } from "../figures";
-import { kProblems } from "../model/gallery";
+import type { Problem } from "../model/gallery";
+import { kProblems } from "../model/problems";
 import type { Run } from "../model/run";
 import { sliderFor, valueOf, type Slider } from "../model/sliders";
 import { withValue } from "../model/pointer";
@@ -70,6 +71,11 @@ function Actions({ state }: { state: Studio }) {
       <span class="said" role="status">{said}</span>
     </div>
   );
+}
+
+/** Where a document says more about a problem. */
+function addressOfDocument({ document: own, heading }: Problem): string {
+  return own ? documentAddress(own.name) : documentAddress("gallery", sectionName(heading));
 }
 
 function PanelOf({ panel, state }: { panel: Panel; state: Studio }) {
@@ -164,7 +170,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
       <Card title="Model" class="controls" tools={<button type="button" onClick={gallery.open}>Gallery</button>}>
         <div class="scroll">
           <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
-          {problem ? <p class="text">{problem.text} <a href={documentAddress("gallery", sectionName(problem.heading))}>More about it</a></p> : null}
+          {problem ? <p class="text">{problem.text} <a href={addressOfDocument(problem)}>More about it</a></p> : null}
           <Sliders state={state} />
           <Trouble error={state.trouble} />
           {narrow ? null : editing}

@@ -1,0 +1,135 @@
+// Problems of practice: each has a document with a design chart and published values (docs/gallery/NAME.md).
+
+import { kBuriedPipe, kTunnelArch, kWalls, type Choice, type Problem } from "./gallery";
+import { foundations, wall, type Slider } from "./sliders";
+
+interface Entry {
+  heading: string;
+  text: string;
+  picture: string;
+  sliders: Slider[];
+  choice: Choice;
+  /** NAME of examples/gallery/NAME.json, where it is not that of the document. */
+  request?: string;
+}
+
+const kAtEnd: Choice = { kind: "along", branch: 0, share: 1 };
+
+function practice(name: string, { request = name, picture, ...entry }: Entry): Problem {
+  return { ...entry, example: `gallery/${request}`, document: { name: `gallery/${name}`, picture: `gallery/${picture}.svg` } };
+}
+
+const kPlasticPipe = 862e3 / (1 - 0.3 ** 2);  // kN/m², in plane strain
+
+/** The force that lifts the crown, 0.39 N at 6 mm, goes with the bending stiffness of the wall. */
+function linerWall(): Slider {
+  const slider = wall(kPlasticPipe, 3, 15);
+  const lifting = { pointer: "/model/loads/1/force/1", scale: -0.00039014236863671003 / 6 ** 3, power: 3 };
+  return { ...slider, targets: [...slider.targets, lifting] };
+}
+
+/** The half of a hump or of a crooked piece, as shares of its height at the given offsets. */
+function hump(shares: readonly number[], scale = 1): { pointer: string; scale: number }[] {
+  return shares.map((share, i) => ({ pointer: `/model/imperfections/0/offsets/${i}/1`, scale: scale * share }));
+}
+
+const kCosine = [1, 0.85355339, 0.5, 0.14644661];
+const kHalf = 0.0324 * 1500;  // m of the pipe whose friction acts at the spring
+const kFriction = 0.5;
+const kFrictionReach = 0.002;  // m
+
+export const kPractice: readonly Problem[] = [
+  practice("liner", {
+    heading: "Liner in a host pipe", picture: "liner_path", choice: { kind: "critical" },
+    text: "Ground water presses on a plastic liner that the old pipe keeps from moving outwards. How much pressure does it bear?",
+    sliders: [linerWall()],
+  }),
+  practice("pile", {
+    heading: "Pile in sand and in clay, with axial and lateral load", request: "pile_sand", picture: "pile_forces", choice: kAtEnd,
+    text: "How far does a pile move under lateral and axial load, in sand whose resistance grows with depth?",
+    sliders: [
+      { name: "Lateral force", unit: "kN", min: 50, max: 800, log: false, step: 5, targets: [{ pointer: "/model/loads/0/force/0" }] },
+      { name: "Axial load", unit: "kN", min: 0, max: 4000, log: false, step: 50, targets: [{ pointer: "/model/loads/0/force/1", scale: -1 }] },
+      { name: "Bending stiffness EI", unit: "kN m²", min: 2e4, max: 1e6, log: true, targets: [{ pointer: "/model/sections/0/EI" }] },
+    ],
+  }),
+  practice("upheaval", {
+    heading: "Upheaval of a heated pipeline", picture: "upheaval_path", choice: { kind: "along", branch: 0, share: 0.6 },
+    text: "Over a hump of the seabed a heated pipe lifts off. When, and when does it come down again?",
+    sliders: [
+      { name: "Height of the hump", unit: "m", min: 0.05, max: 0.4, log: true, targets: hump(kCosine) },
+      { name: "Weight and cover", unit: "kN/m", min: 1, max: 12, log: false, step: 0.1, targets: [
+        { pointer: "/model/loads/0/force/1", scale: -1 },
+        { pointer: "/model/foundations/1/law/capacity", scale: kFriction },
+        { pointer: "/model/foundations/1/law/stiffness", scale: kFriction / kFrictionReach },
+        { pointer: "/model/springs/0/law/capacity", scale: kFriction * kHalf },
+        { pointer: "/model/springs/0/law/stiffness", scale: kFriction * kHalf / kFrictionReach }] },
+    ],
+  }),
+  practice("buried_pipe", {
+    heading: "Buried flexible pipe with soil and overburden", picture: "buried_pipe_path", choice: { kind: "critical" },
+    text: "How high may the fill above a flexible pipe be?",
+    sliders: kBuriedPipe.sliders,
+  }),
+  practice("tunnel_arch", {
+    heading: "Tunnel arch", picture: "tunnel_arch_path", choice: { kind: "critical" },
+    text: "What does ground that can only push add to the limit load of a shallow arch?",
+    sliders: kTunnelArch.sliders,
+  }),
+  practice("column_between_walls", {
+    heading: "Column between walls", picture: "column_between_walls_path", choice: { kind: "critical" },
+    text: "When does a strip that lies on one wall snap to the other?",
+    sliders: kWalls.sliders,
+  }),
+  practice("railway_track", {
+    heading: "Railway track in heat", picture: "railway_track_path", choice: { kind: "critical" },
+    text: "How warm may the rails become before a crooked track moves sideways?",
+    sliders: [
+      { name: "Crookedness", unit: "mm", min: 2, max: 40, log: true, targets: hump(kCosine, 1e-3) },
+      { name: "Resistance of the ballast across", unit: "kN/m", min: 2, max: 20, log: true, targets: [
+        { pointer: "/model/foundations/0/law/capacity" }, { pointer: "/model/foundations/0/law/stiffness", scale: 200 }] },
+    ],
+  }),
+  practice("portal", {
+    heading: "Portal frame with semi-rigid joints on footings that lift", request: "portal_joints", picture: "portal_path",
+    choice: { kind: "critical" },
+    text: "At which load does a frame sway whose joints give?",
+    sliders: [
+      { name: "Stiffness of the joints", unit: "kN m", min: 100, max: 1e6, log: true, targets: [
+        { pointer: "/model/members/0/release/end/rotation" }, { pointer: "/model/members/2/release/end/rotation" }] },
+      { name: "Height", unit: "m", min: 2, max: 10, log: false, step: 0.1, targets: [
+        { pointer: "/model/nodes/1/y" }, { pointer: "/model/nodes/2/y" }] },
+    ],
+  }),
+  practice("braced_bay", {
+    heading: "Braced bay with rods", picture: "braced_bay_shape", choice: kAtEnd,
+    text: "Two crossed rods brace a bay, and only the stretched one acts. How far does the bay sway?",
+    sliders: [
+      { name: "Force at the corner", unit: "kN", min: -100, max: 100, log: false, step: 5, targets: [{ pointer: "/model/loads/0/force/0" }] },
+      { name: "Axial stiffness of the rods", unit: "kN", min: 4000, max: 400000, log: true, targets: [{ pointer: "/model/sections/1/EA" }] },
+    ],
+  }),
+  practice("riser", {
+    heading: "Touchdown of a riser", picture: "riser_shape", choice: kAtEnd,
+    text: "A vessel lifts a pipe off the seabed. Where does the pipe touch down, and how is it bent there?",
+    sliders: [
+      { name: "Horizontal tension", unit: "kN", min: 300, max: 900, log: false, step: 10, targets: [{ pointer: "/model/loads/1/force/0" }] },
+      { name: "Height of the vessel", unit: "m", min: 50, max: 220, log: false, step: 5, targets: [{ pointer: "/model/supports/1/displacement/y" }] },
+    ],
+  }),
+  practice("film", {
+    heading: "Thin film that wrinkles and then folds", picture: "film_path", choice: { kind: "along", branch: 0, share: 0.9 },
+    text: "A stiff film on a soft substrate, pressed from its end: when does it wrinkle, and how does it fold?",
+    sliders: [
+      { name: "Substrate stiffness", unit: "K", min: 0.5, max: 2, log: true, targets: foundations(1, "stiffness") },
+    ],
+  }),
+  practice("masonry_arch", {
+    heading: "Masonry arch with elastic backing", picture: "masonry_arch_shape", choice: { kind: "critical" },
+    text: "What does backing behind the haunches add to an arch that is loaded at its quarter?",
+    sliders: [
+      { name: "Stiffness of the backing", unit: "kN/m³", min: 100, max: 1e6, log: true, targets: foundations(2, "stiffness") },
+      { name: "Depth of the rib", unit: "m", min: 0.15, max: 0.6, log: false, step: 0.01, targets: [{ pointer: "/model/sections/0/shape/depth" }] },
+    ],
+  }),
+];
