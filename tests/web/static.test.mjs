@@ -53,6 +53,24 @@ test('every example is solved in the page', async () => {
   await close(page);
 });
 
+test('every problem of practice opens from the gallery and is solved in the page', async () => {
+  const page = await openPage(browser, url);
+  await settled(page);
+  const openGallery = () => page.getByRole('button', { name: 'Gallery' }).click();
+  await openGallery();
+  const names = await page.locator('.gallery li:has(img) strong').allInnerTexts();
+  assert.equal(names.length, 12);
+  await page.keyboard.press('Escape');
+  for (const name of names) {
+    await openGallery();
+    await page.locator('.gallery li', { has: page.getByText(name, { exact: true }) }).locator('button').click();
+    await page.getByRole('heading', { level: 1, name, exact: true }).waitFor();
+    await settled(page);
+    assert.ok(await page.locator('.drawing-card svg').count() > 0, name);
+  }
+  await close(page);
+});
+
 test('a slider moves the path while it is dragged', async () => {
   const page = await openPage(browser, `${url}#/studio?problem=tunnel_arch`);
   await settled(page);

@@ -150,6 +150,27 @@ class Notebook(Case):
         self.assertTrue(any("image/svg+xml" in output.get("data", {}) for output in outputs))
 
 
+@unittest.skipUnless(is_there("matplotlib"), "matplotlib is not there")
+class NotebookOfAllProblems(Case):
+    def test_it_solves_and_draws_each_problem_of_the_gallery(self):
+        """Its code runs as a program: nbconvert takes seconds for each problem."""
+        index = (ROOT / "docs" / "gallery" / "README.md").read_text(encoding="utf-8")
+        pages = re.findall(r"\]\((\w+)\.md\)", index)
+        others = re.findall(r'"page_(\w+)\.svg"', index)
+        requests = {"pile": "pile_sand", "portal": "portal_joints"}
+        problems = [f"gallery/{requests.get(page, page)}" for page in pages] + others
+        self.assertGreaterEqual(len(problems), 22)
+        cells = json.loads((PACKAGE / "examples" / "any_problem.ipynb").read_text(encoding="utf-8"))["cells"]
+        code = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+        self.assertIn('PROBLEM = "gallery/liner"', code)
+        code = re.sub(r"FACTORS = \[.*\]", "FACTORS = [1.0, 1.2]", code)
+        program = "import matplotlib\nmatplotlib.use('Agg')\n" + "".join(
+            code.replace('PROBLEM = "gallery/liner"', f"PROBLEM = {problem!r}") + "\nassert '</svg>' in result._repr_svg_()\n"
+            "assert any(value for _, value in answers), PROBLEM\nplt.close('all')\n" for problem in problems)
+        done = run([sys.executable, "-c", program], cwd=PACKAGE / "examples")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
 class Pages(Case):
     def blocks(self, name):
         """The Python of a page, block by block."""

@@ -22,7 +22,8 @@ try {
   buildSync({
     entryPoints: tests.map((name) => join(here, name)), outdir: folder, outExtension: { ".js": ".mjs" },
     bundle: true, platform: "node", format: "esm", target: "node18", sourcemap: "inline", logLevel: "warning",
-    define: { CASES: JSON.stringify(join(here, "cases")), FIGURES: JSON.stringify(join(web, "src/figures")) },
+    define: { CASES: JSON.stringify(join(here, "cases")), FIGURES: JSON.stringify(join(web, "src/figures")),
+      ROOT: JSON.stringify(join(web, "..")) },
   });
   const files = tests.map((name) => join(folder, name.replace(/\.ts$/, ".mjs")));
   const { status } = spawnSync(process.execPath, ["--enable-source-maps", "--test", ...files], { stdio: "inherit" });
