@@ -129,8 +129,8 @@ struct Submitted {
 
 /// Owners whose work a worker may take.
 struct OwnersInTurn {
-  bool idle = false;                     ///< only those for whom nothing of the kind (jobs, sweeps) runs
-  std::vector<std::string> except = {};  ///< with `idle`: their work is left to other workers
+  int most = 0;  ///< not 0: only those for whom fewer tasks of the kind (jobs, chunks of sweeps) run
+  std::vector<std::string> except = {};  ///< with `most`: their work is left to other workers
 };
 
 /// @brief Claim of a worker on a job. Stores refuse writes under a claim whose attempt is not the job's: the

@@ -302,7 +302,7 @@ void WorkerPool::run_spare(std::size_t number, const std::stop_token& stop) {
     wait_as_spare(seen, stop);
     bool worked = true;
     while (worked && are_busy() && !stop.stop_requested()) {
-      const OwnersInTurn owners{true,
+      const OwnersInTurn owners{1,
                                 are_few_spares_at_long_work() ? std::vector<std::string>() : use_.of_much()};
       began = now();
       worked = context_.waiting.value() > 0 && claim_and_work(runners, stop, owners);

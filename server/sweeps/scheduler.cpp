@@ -84,9 +84,9 @@ std::uint64_t SweepScheduler::served(const std::string& owner) const {
   return found == served_.end() ? 0 : found->second;
 }
 
-/// Whether no chunk of the owner's sweeps is in work.
-bool SweepScheduler::is_idle(const std::string& owner) const {
-  return std::none_of(watches_.begin(), watches_.end(), [&](const Watch* watch) {
+/// Returns how many chunks of the owner's sweeps are in work.
+std::ptrdiff_t SweepScheduler::chunks_of(const std::string& owner) const {
+  return std::count_if(watches_.begin(), watches_.end(), [&](const Watch* watch) {
     const auto of_watch = std::find_if(sweeps_.begin(), sweeps_.end(),
                                        [&](const auto& sweep) { return sweep->id == watch->claim_.sweep; });
     return of_watch != sweeps_.end() && (*of_watch)->owner == owner;
@@ -96,7 +96,7 @@ bool SweepScheduler::is_idle(const std::string& owner) const {
 std::optional<SweepTurn> SweepScheduler::next(double seconds, const OwnersInTurn& owners) {
   const std::lock_guard guard(mutex_);
   const auto waits = [&](const ActiveSweep& sweep) {
-    return !sweep.aside_ && !sweep.exhausted_ && (!owners.idle || is_idle(sweep.owner)) &&
+    return !sweep.aside_ && !sweep.exhausted_ && (owners.most == 0 || chunks_of(sweep.owner) < owners.most) &&
            std::find(owners.except.begin(), owners.except.end(), sweep.owner) == owners.except.end();
   };
   const auto order = [&](const auto& sweep) {

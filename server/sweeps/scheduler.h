@@ -135,7 +135,7 @@ class SweepScheduler {
   template <class Is>
   void stop_if(Is is, StopReason reason);
   static std::uint64_t most_units(const ActiveSweep& sweep, double seconds);
-  [[nodiscard]] bool is_idle(const std::string& owner) const;
+  [[nodiscard]] std::ptrdiff_t chunks_of(const std::string& owner) const;
   [[nodiscard]] std::uint64_t served(const std::string& owner) const;
   void look();
 

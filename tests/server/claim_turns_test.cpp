@@ -49,13 +49,20 @@ TEST_P(ClaimTurns, OwnersTakeTurns) {
 TEST_P(ClaimTurns, OwnersWithoutARunningJobCanHaveTheirTurnAlone) {
   submit({"ann", "ann", "bob", "bob", "cid"});
   EXPECT_THAT(claimed(OwnersInTurn{}, 1), ElementsAre(id_number(0)));
-  EXPECT_THAT(claimed(OwnersInTurn{true}), ElementsAre(id_number(2), id_number(4)));
+  EXPECT_THAT(claimed(OwnersInTurn{1}), ElementsAre(id_number(2), id_number(4)));
   EXPECT_THAT(claimed(OwnersInTurn{}), ElementsAre(id_number(1), id_number(3))) << "the others are left";
+}
+
+TEST_P(ClaimTurns, OwnersWithFewRunningJobsCanHaveTheirTurnAlone) {
+  submit({"ann", "ann", "ann", "bob", "bob", "bob"});
+  EXPECT_THAT(claimed(OwnersInTurn{}, 1), ElementsAre(id_number(0)));
+  EXPECT_THAT(claimed(OwnersInTurn{2}), ElementsAre(id_number(3), id_number(1), id_number(4)));
+  EXPECT_THAT(claimed(OwnersInTurn{}), ElementsAre(id_number(2), id_number(5))) << "the others are left";
 }
 
 TEST_P(ClaimTurns, TheWorkOfSomeOwnersCanBeLeftToOthers) {
   submit({"ann", "ann", "bob", "cid", "it's"});
-  EXPECT_THAT(claimed({true, {"ann", "it's"}}), ElementsAre(id_number(2), id_number(3)));
+  EXPECT_THAT(claimed({1, {"ann", "it's"}}), ElementsAre(id_number(2), id_number(3)));
   EXPECT_THAT(claimed({}), ElementsAre(id_number(4), id_number(0), id_number(1)));
 }
 

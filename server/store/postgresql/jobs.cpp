@@ -209,12 +209,10 @@ class PostgresqlStore final : public Store {
   StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now, const OwnersInTurn& owners) override {
     static const std::string kWaits = may(JobEvent::claim);
     static const std::string kOfAll = take_next_of(kWaits);
-    static const std::string kIdle =
-        kWaits +
-        " AND owner NOT IN (SELECT running.owner FROM jobs AS running JOIN job_leases ON job = running.seq)";
-    static const std::string kOfIdle = take_next_of(kIdle);
-    static const std::string kOfOthers =
-        take_next_of(kIdle + " AND owner NOT IN (SELECT jsonb_array_elements_text($5::jsonb))");
+    static const std::string kOfFew = take_next_of(
+        kWaits + " AND owner NOT IN (SELECT jsonb_array_elements_text($6::jsonb))" +
+        " AND owner NOT IN (SELECT running.owner FROM jobs AS running JOIN job_leases ON job = running.seq"
+        " GROUP BY running.owner HAVING count(*) >= $5)");
     std::string last;
     {
       const std::lock_guard guard(turn_mutex_);
@@ -222,8 +220,8 @@ class PostgresqlStore final : public Store {
     }
     Parameters wanted;
     wanted.add(last).add(clock_.at(now)).add(lease.worker).add(microseconds(lease.until - now));
-    if (!owners.except.empty()) {
-      wanted.add(nlohmann::json(owners.except).dump());
+    if (owners.most != 0) {
+      wanted.add(static_cast<std::int64_t>(owners.most)).add(nlohmann::json(owners.except).dump());
     }
     const auto use = [&](std::span<const Rows> all) -> StatusOr<std::optional<Claim>> {
       const Rows& rows = all.front();
@@ -236,10 +234,7 @@ class PostgresqlStore final : public Store {
       return std::optional(
           Claim{rows[0].text(0), rows[0].whole(1), rows[0].text(2), created, rows[0].text(4)});
     };
-    return database_.write_at_once<std::optional<Claim>>({{!owners.except.empty() ? kOfOthers
-                                                           : owners.idle          ? kOfIdle
-                                                                                  : kOfAll,
-                                                           wanted}},
+    return database_.write_at_once<std::optional<Claim>>({{owners.most == 0 ? kOfAll : kOfFew, wanted}},
                                                          Durability::unsynced, use);
   }
 

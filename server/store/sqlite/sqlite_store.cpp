@@ -199,14 +199,13 @@ std::optional<Claim> next_in_turn(const Connection& connection, const OwnersInTu
                                   std::int64_t& row) {
   static const std::string kWaits = may(JobEvent::claim);
   static const std::string kOfAll = next_of(kWaits);
-  static const std::string kIdle =
-      kWaits + " AND owner NOT IN (SELECT owner FROM jobs INDEXED BY jobs_by_lease WHERE " +
-      may(JobEvent::requeue) + ")";
-  static const std::string kOfIdle = next_of(kIdle);
-  static const std::string kOfOthers = next_of(kIdle + " AND owner NOT IN (SELECT value FROM json_each(?2))");
-  Statement found = owners.except.empty()
-                        ? connection.query(owners.idle ? kOfIdle : kOfAll, last)
-                        : connection.query(kOfOthers, last, nlohmann::json(owners.except).dump());
+  static const std::string kOfFew =
+      next_of(kWaits + " AND owner NOT IN (SELECT value FROM json_each(?3))" +
+              " AND owner NOT IN (SELECT owner FROM jobs INDEXED BY jobs_by_lease WHERE " +
+              may(JobEvent::requeue) + " GROUP BY owner HAVING count(*) >= ?2)");
+  Statement found = owners.most == 0 ? connection.query(kOfAll, last)
+                                     : connection.query(kOfFew, last, static_cast<std::int64_t>(owners.most),
+                                                        nlohmann::json(owners.except).dump());
   if (!found.step()) {
     return std::nullopt;
   }
