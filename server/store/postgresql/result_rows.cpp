@@ -82,6 +82,10 @@ StoredPath read_path(Connection& connection, std::string_view job) {
   return path;
 }
 
+/// Bytes of the longest document that is stored as it is. PostgreSQL would pack longer ones itself, in its
+/// process and some ten times slower.
+constexpr std::size_t kLongestPlain = 2000;
+
 void add_document(std::vector<Statement>& statements, std::string_view job, const JobResult& result) {
   static const std::string kResult =
       "INSERT INTO results (job, size, packed, critical_load_factor, critical_type, termination, wall_time_s)"
@@ -92,7 +96,7 @@ void add_document(std::vector<Statement>& statements, std::string_view job, cons
   const Summary& summary = result.summary;
   const bool critical = summary.critical_load_factor && summary.critical_type;
   const std::string_view document = result.document;
-  const bool pack = document.size() > kPiece;
+  const bool pack = document.size() > kLongestPlain;
   Parameters row;
   row.add(job).add(static_cast<std::int64_t>(document.size())).add(pack);
   row.add(critical ? summary.critical_load_factor : std::nullopt);
