@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds a wheel of the Python package into dist/, with the library inside, and solves with that what tests/clients has.
-#   scripts/wheel.sh [x86_64]    for Linux with glibc 2.17 or later, with two libraries inside: the package loads the one for
-#                                x86-64-v3 where the processor has those instructions, else the one for x86-64-v2
+#   scripts/wheel.sh [x86_64]    Linux with glibc 2.17 or later; the processor decides which of two libraries is taken
+#   scripts/wheel.sh aarch64     the same for 64-bit ARM; tried under emulation
 #   scripts/wheel.sh none        without a library: for a service, and for Python in a browser (Pyodide), in which it is tried
 # JOBS=n compiles that many files at a time. SOURCE_DATE_EPOCH sets the dates inside; by default that of the commit.
 set -euo pipefail
@@ -16,6 +16,11 @@ case "$target" in
     builds=(release:x86-64-v3 portable-x86-64-v2:x86-64-v2)
     platform=manylinux_2_17_x86_64
     ;;
+  aarch64)
+    packages=(g++-aarch64-linux-gnu qemu-user)
+    builds=(portable-aarch64:any)
+    platform=manylinux_2_17_aarch64
+    ;;
   none)
     packages=()
     if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
@@ -25,7 +30,7 @@ case "$target" in
     platform=any
     ;;
   *)
-    echo "usage: scripts/wheel.sh [x86_64 | none]" >&2
+    echo "usage: scripts/wheel.sh [x86_64 | aarch64 | none]" >&2
     exit 1
     ;;
 esac
@@ -72,9 +77,17 @@ fi
 
 requests=(tests/clients/requests/*.json tests/clients/sweep_500.json)
 mkdir "$work/out"
-# As somebody who has nothing but Python.
-/usr/bin/python3 -m venv "$work/venv"
-"$work/venv/bin/pip" install --quiet --no-index "$wheel"
-"$work/venv/bin/python" -I tests/clients/native/solve.py "$work/out" "${requests[@]}" >"$work/told"
+case "$target" in
+  x86_64)  # as somebody who has nothing but Python
+    /usr/bin/python3 -m venv "$work/venv"
+    "$work/venv/bin/pip" install --quiet --no-index "$wheel"
+    "$work/venv/bin/python" -I tests/clients/native/solve.py "$work/out" "${requests[@]}" >"$work/told"
+    ;;
+  aarch64)
+    /usr/bin/python3 -m zipfile -e "$wheel" "$work/wheel"
+    aarch64-linux-gnu-gcc -std=c11 -O1 -I. -o "$work/solve" tests/clients/native/solve.c
+    qemu-aarch64 -L /usr/aarch64-linux-gnu "$work/solve" "$work/wheel/snapthrough/native/any/libsnapthrough.so.1" "$work/out" "${requests[@]}" >"$work/told"
+    ;;
+esac
 cmake --build build/release --target snapthrough --parallel "${JOBS:-$(nproc)}" >/dev/null
 /usr/bin/python3 tests/clients/native/compare.py build/release/snapthrough "$work/out" <"$work/told"

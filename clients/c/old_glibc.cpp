@@ -1,6 +1,10 @@
 /// Binds functions whose versions are new to those that every glibc since 2.17 has. The linker sends
 /// calls of NAME to __wrap_NAME. The older versions of the mathematical functions compute the same; they also set errno.
+#if defined(__aarch64__)
+#define OLDEST "GLIBC_2.17"
+#else
 #define OLDEST "GLIBC_2.2.5"
+#endif
 #define BIND(name) __asm__(".symver old_" #name ", " #name "@" OLDEST)
 
 // NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming): the linker and glibc give these names
