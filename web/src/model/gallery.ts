@@ -8,13 +8,13 @@ export type Choice = { kind: "critical" } | { kind: "along"; branch: number; sha
 export interface Problem {
   /** NAME of examples/NAME.json. */
   example: string;
-  /** Also that of its section in docs/gallery.md, or of its own document docs/EXAMPLE.md, where `document` is set. */
+  /** Also that of its own document, or of its section in docs/gallery.md where it has none. */
   heading: string;
   /** What is seen, in two sentences. */
   text: string;
   sliders: Slider[];
   choice: Choice;
-  /** Its own document, docs/NAME.md, and the picture of its result there. */
+  /** Its own document, docs/NAME.md, and the picture of the example's result, docs/PICTURE. */
   document?: { name: string; picture: string };
 }
 

@@ -28,15 +28,16 @@ function linerWall(): Slider {
   return { ...slider, targets: [...slider.targets, lifting] };
 }
 
-/** The half of a hump or of a crooked piece, as shares of its height at the given offsets. */
-function hump(shares: readonly number[], scale = 1): { pointer: string; scale: number }[] {
-  return shares.map((share, i) => ({ pointer: `/model/imperfections/0/offsets/${i}/1`, scale: scale * share }));
+/** Half of a hump, or of a crooked piece, that falls as a cosine does: its height at the first offsets, as shares of the largest. */
+const kCosine = [1, 0.85355339, 0.5, 0.14644661];
+
+function hump(scale = 1): { pointer: string; scale: number }[] {
+  return kCosine.map((share, i) => ({ pointer: `/model/imperfections/0/offsets/${i}/1`, scale: scale * share }));
 }
 
-const kCosine = [1, 0.85355339, 0.5, 0.14644661];
-const kHalf = 0.0324 * 1500;  // m of the pipe whose friction acts at the spring
-const kFriction = 0.5;
-const kFrictionReach = 0.002;  // m
+const kLifted = 0.0324 * 1500;  // m of the pipe whose friction one spring has, since they may lift off
+const kFriction = 0.5;          // of the pipe on the seabed, over weight and cover
+const kFrictionReach = 0.002;   // m: capacity over initial stiffness
 
 export const kPractice: readonly Problem[] = [
   practice("liner", {
@@ -57,13 +58,13 @@ export const kPractice: readonly Problem[] = [
     heading: "Upheaval of a heated pipeline", picture: "upheaval_path", choice: { kind: "along", branch: 0, share: 0.6 },
     text: "Over a hump of the seabed a heated pipe lifts off. When, and when does it come down again?",
     sliders: [
-      { name: "Height of the hump", unit: "m", min: 0.05, max: 0.4, log: true, targets: hump(kCosine) },
+      { name: "Height of the hump", unit: "m", min: 0.05, max: 0.4, log: true, targets: hump() },
       { name: "Weight and cover", unit: "kN/m", min: 1, max: 12, log: false, step: 0.1, targets: [
         { pointer: "/model/loads/0/force/1", scale: -1 },
         { pointer: "/model/foundations/1/law/capacity", scale: kFriction },
         { pointer: "/model/foundations/1/law/stiffness", scale: kFriction / kFrictionReach },
-        { pointer: "/model/springs/0/law/capacity", scale: kFriction * kHalf },
-        { pointer: "/model/springs/0/law/stiffness", scale: kFriction * kHalf / kFrictionReach }] },
+        { pointer: "/model/springs/0/law/capacity", scale: kFriction * kLifted },
+        { pointer: "/model/springs/0/law/stiffness", scale: kFriction * kLifted / kFrictionReach }] },
     ],
   }),
   practice("buried_pipe", {
@@ -85,20 +86,21 @@ export const kPractice: readonly Problem[] = [
     heading: "Railway track in heat", picture: "railway_track_path", choice: { kind: "critical" },
     text: "How warm may the rails become before a crooked track moves sideways?",
     sliders: [
-      { name: "Crookedness", unit: "mm", min: 2, max: 40, log: true, targets: hump(kCosine, 1e-3) },
+      { name: "Crookedness", unit: "mm", min: 2, max: 40, log: true, targets: hump(1e-3) },
       { name: "Resistance of the ballast across", unit: "kN/m", min: 2, max: 20, log: true, targets: [
         { pointer: "/model/foundations/0/law/capacity" }, { pointer: "/model/foundations/0/law/stiffness", scale: 200 }] },
     ],
   }),
   practice("portal", {
-    heading: "Portal frame with semi-rigid joints on footings that lift", request: "portal_joints", picture: "portal_path",
+    heading: "Portal frame with semi-rigid joints on footings that lift", request: "portal_footing", picture: "portal_path",
     choice: { kind: "critical" },
-    text: "At which load does a frame sway whose joints give?",
+    text: "How far can a frame be pushed whose joints give and whose footings lift?",
     sliders: [
-      { name: "Stiffness of the joints", unit: "kN m", min: 100, max: 1e6, log: true, targets: [
-        { pointer: "/model/members/0/release/end/rotation" }, { pointer: "/model/members/2/release/end/rotation" }] },
-      { name: "Height", unit: "m", min: 2, max: 10, log: false, step: 0.1, targets: [
-        { pointer: "/model/nodes/1/y" }, { pointer: "/model/nodes/2/y" }] },
+      { name: "Load on each column", unit: "kN", min: 50, max: 800, log: false, step: 10, targets: [
+        { pointer: "/model/loads/0/force/1", scale: -1 }, { pointer: "/model/loads/1/force/1", scale: -1 }] },
+      { name: "Stiffness of the joints", unit: "kN m", min: 1000, max: 1e6, log: true, targets: [
+        { pointer: "/model/members/2/release/end/rotation" }, { pointer: "/model/members/5/release/end/rotation" }] },
+      { name: "Stiffness of the soil", unit: "kN/m²", min: 3000, max: 300000, log: true, targets: foundations(4, "stiffness") },
     ],
   }),
   practice("braced_bay", {
