@@ -66,6 +66,8 @@ test('every problem of practice opens from the gallery and is solved in the page
     await page.locator('.gallery li', { has: page.getByText(name, { exact: true }) }).locator('button').click();
     await page.getByRole('heading', { level: 1, name, exact: true }).waitFor();
     await settled(page);
+    assert.match(await headline(page), /\d|none/u, name);
+    assert.equal(await page.locator('.trouble').count(), 0, name);
     assert.ok(await page.locator('.drawing-card svg').count() > 0, name);
   }
   await close(page);

@@ -157,7 +157,7 @@ class NotebookOfAllProblems(Case):
         index = (ROOT / "docs" / "gallery" / "README.md").read_text(encoding="utf-8")
         pages = re.findall(r"\]\((\w+)\.md\)", index)
         others = re.findall(r'"page_(\w+)\.svg"', index)
-        requests = {"pile": "pile_sand", "portal": "portal_joints"}
+        requests = {"pile": "pile_sand", "portal": "portal_footing"}
         problems = [f"gallery/{requests.get(page, page)}" for page in pages] + others
         self.assertGreaterEqual(len(problems), 22)
         cells = json.loads((PACKAGE / "examples" / "any_problem.ipynb").read_text(encoding="utf-8"))["cells"]

@@ -52,3 +52,10 @@ test("the documents of the gallery describe these problems and no others", () =>
     assert.ok(existsSync(join(ROOT, "docs", own?.picture ?? "none")), heading);
   }
 });
+
+test("the picture of a problem of practice is that of the request that it opens", () => {
+  for (const { document: own, example } of kPractice) {
+    const title = requestOf(example).model.title ?? "none";
+    assert.ok(text(`docs/${own?.picture ?? "none"}`).includes(`<title>${title}: `), `${example}: ${own?.picture ?? ""}`);
+  }
+});
