@@ -43,7 +43,10 @@ export const kPractice: readonly Problem[] = [
   practice("liner", {
     heading: "Liner in a host pipe", picture: "liner_path", choice: { kind: "critical" },
     text: "Ground water presses on a plastic liner that the old pipe keeps from moving outwards. How much pressure does it bear?",
-    sliders: [linerWall()],
+    sliders: [
+      linerWall(),
+      { name: "Gap between liner and old pipe", unit: "mm", min: 0, max: 10, log: false, step: 0.1, targets: foundations(1, "gap", 1e-3) },
+    ],
   }),
   practice("pile", {
     heading: "Pile in sand and in clay, with axial and lateral load", request: "pile_sand", picture: "pile_forces", choice: kAtEnd,
@@ -124,6 +127,7 @@ export const kPractice: readonly Problem[] = [
     text: "A stiff film on a soft substrate, pressed from its end: when does it wrinkle, and how does it fold?",
     sliders: [
       { name: "Substrate stiffness", unit: "K", min: 0.5, max: 2, log: true, targets: foundations(1, "stiffness") },
+      { name: "Length of the half", unit: "", min: 20, max: 80, log: false, step: 1, targets: [{ pointer: "/model/nodes/1/x" }] },
     ],
   }),
   practice("masonry_arch", {
