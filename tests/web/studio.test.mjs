@@ -119,8 +119,8 @@ test('every problem of the gallery opens and is drawn', async () => {
   await page.keyboard.press('Escape');
   for (const name of names) {
     await page.getByRole('button', { name: 'Gallery' }).click();
-    await page.locator('.gallery li button', { hasText: name }).click();
-    await page.getByRole('heading', { level: 1, name }).waitFor();
+    await page.locator('.gallery li button', { has: page.getByText(name, { exact: true }) }).click();
+    await page.getByRole('heading', { level: 1, name, exact: true }).waitFor();
     await settled(page);
     assert.ok((await page.getByRole('slider').count()) >= 2, name);
     assert.ok((await page.locator('.drawing-card svg path').count()) > 1, name);
@@ -365,7 +365,7 @@ test('what a tab works on outlives its reloading', async () => {
   assert.equal(await headline.innerText(), before);
   assert.equal(await page.getByRole('heading', { level: 1 }).innerText(), 'Tunnel arch in the ground');
   await page.getByRole('button', { name: 'Gallery' }).click();
-  await page.locator('.gallery li', { hasText: 'Tunnel arch' }).locator('button').click();
+  await page.locator('.gallery li', { hasText: 'Tunnel arch in the ground' }).locator('button').click();
   await page.locator('.trust-card .headline', { hasText: '93.12' }).waitFor();
   await close(page);
 });
