@@ -312,17 +312,18 @@ void Connection::execute(const std::string& sql) {
   PQclear(result);
 }
 
-bool Connection::take_notifications() {
+bool Connection::take_notifications(std::string_view own) {
   bool any = false;
   while (PGnotify* notification = PQnotifies(handle_.get())) {
+    any = any || notification->extra != own;
     PQfreemem(notification);
-    any = true;
   }
   return any;
 }
 
-bool Connection::wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell) {
-  if (take_notifications()) {
+bool Connection::wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell,
+                                       std::string_view own) {
+  if (take_notifications(own)) {
     return true;  // read with the answer to an earlier statement
   }
   std::array<pollfd, 2> waited{pollfd{PQsocket(handle_.get()), POLLIN, 0},
@@ -331,7 +332,7 @@ bool Connection::wait_for_notification(std::chrono::milliseconds longest, const 
   if (ready > 0 && waited[0].revents != 0 && PQconsumeInput(handle_.get()) != 1) {
     throw Error("", PQerrorMessage(handle_.get()));
   }
-  return take_notifications();
+  return take_notifications(own);
 }
 
 Transaction::Transaction(Connection& connection, bool synced) : connection_(connection) {

@@ -132,12 +132,13 @@ class Connection {
   void execute(const std::string& sql);
   [[nodiscard]] bool in_transaction() const;
   [[nodiscard]] bool good() const;
-  /// Waits for a notification until that time is over or the bell is rung; returns whether one came.
+  /// Waits for notifications until that time is over or the bell is rung; returns whether one came whose text
+  /// is not `own`.
   /// @pre the connection has run LISTEN
-  bool wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell);
+  bool wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell, std::string_view own);
 
  private:
-  bool take_notifications();
+  bool take_notifications(std::string_view own);
   void send(const Statement& statement);
   bool read_pipeline(std::vector<Rows>& all, pg_result*& failed);
   [[noreturn]] void fail(pg_result* result) const;

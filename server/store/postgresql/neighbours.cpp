@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <random>
+#include <string>
 
 #include "server/bell.h"
 #include "server/store/postgresql/parts.h"
@@ -84,7 +86,8 @@ class PostgresqlNeighbourStore final : public NeighbourStore {
   }
 
   Status ring() override {
-    return database_.write_at_once({{"SELECT pg_notify('snapthrough', '')"}}, Durability::unsynced);
+    return database_.write_at_once({{"SELECT pg_notify('snapthrough', $1)", Parameters().add(name_)}},
+                                   Durability::unsynced);
   }
 
   bool wait(std::chrono::milliseconds longest, const std::stop_token& stop) override {
@@ -98,7 +101,7 @@ class PostgresqlNeighbourStore final : public NeighbourStore {
         continue;
       }
       try {
-        if (listener_->wait_for_notification(left, stopping)) {
+        if (listener_->wait_for_notification(left, stopping, name_)) {
           return true;
         }
       } catch (const Error&) {
@@ -130,6 +133,8 @@ class PostgresqlNeighbourStore final : public NeighbourStore {
   }
 
   Database& database_;
+  /// Text of this process's rings, which the listening connection gets too.
+  const std::string name_ = std::to_string(std::random_device()());
   std::unique_ptr<Connection> listener_;
   std::chrono::steady_clock::time_point next_try_{};
 };
