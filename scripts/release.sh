@@ -14,6 +14,7 @@ bash scripts/archive.sh
 bash scripts/archive_test.sh dist/snapthrough-*-linux-x86_64.tar.gz
 bash scripts/wheel.sh x86_64
 bash scripts/wheel.sh aarch64
+bash scripts/wheel.sh windows
 bash scripts/wasm.sh
 bash scripts/wheel.sh none
 (cd build/wasm/package && npm pack --silent --pack-destination ../../../dist >/dev/null)

@@ -2,6 +2,7 @@
 # Builds a wheel of the Python package into dist/, with the library inside, and solves with that what tests/clients has.
 #   scripts/wheel.sh [x86_64]    Linux on x86-64 with glibc 2.17 or later; the processor decides which of two libraries is taken
 #   scripts/wheel.sh aarch64     Linux on 64-bit ARM with glibc 2.17 or later; its library is tried under emulation
+#   scripts/wheel.sh windows     Windows on x86-64; its library is tried under wine
 #   scripts/wheel.sh none        without a library: for a service, and for Python in a browser (Pyodide), in which it is tried
 # JOBS=n compiles that many files at a time. SOURCE_DATE_EPOCH sets the dates inside; by default that of the commit.
 set -euo pipefail
@@ -10,6 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/lib/packages.sh
 
 target="${1:-x86_64}"
+file=portable/libsnapthrough.so.1
 case "$target" in
   x86_64)
     packages=()
@@ -21,6 +23,12 @@ case "$target" in
     builds=(portable-aarch64:any)
     platform=manylinux_2_17_aarch64
     ;;
+  windows)
+    packages=(g++-mingw-w64-x86-64-posix wine64)
+    builds=(portable-windows:any)
+    platform=win_amd64
+    file=portable/snapthrough.dll
+    ;;
   none)
     packages=()
     if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
@@ -30,7 +38,7 @@ case "$target" in
     platform=any
     ;;
   *)
-    echo "usage: scripts/wheel.sh [x86_64 | aarch64 | none]" >&2
+    echo "usage: scripts/wheel.sh [x86_64 | aarch64 | windows | none]" >&2
     exit 1
     ;;
 esac
@@ -42,13 +50,15 @@ for pair in "${builds[@]}"; do
   mkdir -p "$build"
   cmake --preset "${pair%%:*}" >"$build/configure.log" 2>&1 || { cat "$build/configure.log"; exit 1; }
   cmake --build "$build" --target snapthrough_portable --parallel "${JOBS:-$(nproc)}"
-  library="$PWD/$build/portable/libsnapthrough.so.1"
+  library="$PWD/$build/$file"
   libraries+="${pair#*:}=$library;"
   # What the library asks of glibc must be what the name of the wheel promises.
-  newest="$(readelf -W --dyn-syms "$library" | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -1)"
-  if [ "$(printf '%s\n' "$newest" GLIBC_2.17 | sort -V | tail -1)" != GLIBC_2.17 ]; then
-    echo "$library asks for $newest, the wheel promises GLIBC_2.17" >&2
-    exit 1
+  if [ "$target" != windows ]; then
+    newest="$(readelf -W --dyn-syms "$library" | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -1)"
+    if [ "$(printf '%s\n' "$newest" GLIBC_2.17 | sort -V | tail -1)" != GLIBC_2.17 ]; then
+      echo "$library asks for $newest, the wheel promises GLIBC_2.17" >&2
+      exit 1
+    fi
   fi
 done
 
@@ -77,6 +87,8 @@ fi
 
 requests=(tests/clients/requests/*.json tests/clients/sweep_500.json)
 mkdir "$work/out"
+/usr/bin/python3 -m zipfile -e "$wheel" "$work/wheel"
+native="$(find "$work/wheel" -name "$(basename "$file")" | head -1)"
 case "$target" in
   x86_64)  # as somebody who has nothing but Python
     /usr/bin/python3 -m venv "$work/venv"
@@ -84,9 +96,12 @@ case "$target" in
     "$work/venv/bin/python" -I tests/clients/native/solve.py "$work/out" "${requests[@]}" >"$work/told"
     ;;
   aarch64)
-    /usr/bin/python3 -m zipfile -e "$wheel" "$work/wheel"
     aarch64-linux-gnu-gcc -std=c11 -O1 -I. -o "$work/solve" tests/clients/native/solve.c
-    qemu-aarch64 -L /usr/aarch64-linux-gnu "$work/solve" "$work/wheel/snapthrough/native/any/libsnapthrough.so.1" "$work/out" "${requests[@]}" >"$work/told"
+    qemu-aarch64 -L /usr/aarch64-linux-gnu "$work/solve" "$native" "$work/out" "${requests[@]}" >"$work/told"
+    ;;
+  windows)
+    x86_64-w64-mingw32-gcc-posix -std=c11 -O1 -I. -o "$work/solve.exe" tests/clients/native/solve.c
+    WINEPREFIX="$work/wine" WINEDEBUG=-all /usr/lib/wine/wine64 "$work/solve.exe" "$native" "$work/out" "${requests[@]}" | tr -d '\r' >"$work/told"
     ;;
 esac
 cmake --build build/release --target snapthrough --parallel "${JOBS:-$(nproc)}" >/dev/null

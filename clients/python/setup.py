@@ -8,7 +8,7 @@ The library is, the first that is there:
 - none, where PYTHONSNAPTHROUGH_LIBRARIES is "none", or the sources of the library are not there: such a package asks a service,
   finds a library that is installed, or runs in a browser (Pyodide), where the page gives it the solver.
 
-PYTHONSNAPTHROUGH_PLATFORM names the platform of a wheel whose libraries run elsewhere, such as manylinux_2_17_x86_64.
+PYTHONSNAPTHROUGH_PLATFORM names the platform of a wheel whose libraries run elsewhere, such as manylinux_2_17_x86_64 or win_amd64.
 """
 import os
 import pathlib
@@ -27,6 +27,7 @@ except ImportError:  # setuptools before 70
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 NAME = "libsnapthrough.so.1"
+NAME_ON_WINDOWS = "snapthrough.dll"
 VARIABLE = "PYTHONSNAPTHROUGH_LIBRARIES"
 
 
@@ -81,7 +82,7 @@ class BuildWithLibraries(build_py):
         for folder, file in libraries():
             target = pathlib.Path(self.build_lib, "snapthrough", "native", folder)
             target.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, target / NAME)
+            shutil.copyfile(file, target / (NAME_ON_WINDOWS if file.suffix == ".dll" else NAME))
 
     editable_mode = False
 

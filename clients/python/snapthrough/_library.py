@@ -9,7 +9,7 @@ from typing import Any, Callable, List, Optional, Tuple, Union
 from ._errors import LibraryNotFound
 from ._progress import Progress
 
-NAME = "libsnapthrough.so.1"
+NAME = "snapthrough.dll" if os.name == "nt" else "libsnapthrough.so.1"
 #: Names that begin with SNAPTHROUGH_ are settings of the service, which refuses those that it does not know.
 VARIABLE = "PYTHONSNAPTHROUGH_LIBRARY"
 
