@@ -1,13 +1,22 @@
-/* Solves requests and sweeps with a library that is loaded by its path.
+/* Solves requests and sweeps with a library that is loaded by its path, on Linux and Windows.
  *   solve LIBRARY FOLDER FILE...   writes the document of each file to FOLDER, and "NAME STATUS SECONDS" for each to standard output
  * A file whose name begins with sweep is a sweep. An analysis whose name begins with cancelled is stopped at its fifth step. */
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "clients/c/snapthrough.h"
+
+#ifdef _WIN32
+#include <windows.h>
+static void* load(const char* path) { return (void*)LoadLibraryA(path); }
+static void* symbol(void* library, const char* name) { return (void*)GetProcAddress((HMODULE)library, name); }
+#else
+#include <dlfcn.h>
+static void* load(const char* path) { return dlopen(path, RTLD_NOW); }
+static void* symbol(void* library, const char* name) { return dlsym(library, name); }
+#endif
 
 typedef snapthrough_document* (*solve_function)(const char*, size_t, const snapthrough_options*, snapthrough_callback, void*);
 typedef snapthrough_document* (*sweep_function)(const char*, size_t, uint64_t, uint64_t, const snapthrough_options*,
@@ -36,20 +45,20 @@ static char* read_file(const char* path, size_t* length) {
 static const char* name_of(const char* path) {
   const char* name = path;
   for (const char* c = path; *c != 0; ++c) {
-    name = *c == '/' ? c + 1 : name;
+    name = *c == '/' || *c == '\\' ? c + 1 : name;
   }
   return name;
 }
 
 int main(int argc, char** argv) {
-  void* library = argc > 3 ? dlopen(argv[1], RTLD_NOW) : NULL;
+  void* library = argc > 3 ? load(argv[1]) : NULL;
   if (library == NULL) {
     fprintf(stderr, "usage: solve LIBRARY FOLDER FILE..., with a library that can be loaded\n");
     return 1;
   }
-  const solve_function solve = (solve_function)dlsym(library, "snapthrough_solve");
-  const sweep_function sweep = (sweep_function)dlsym(library, "snapthrough_sweep");
-  const free_function release = (free_function)dlsym(library, "snapthrough_free");
+  const solve_function solve = (solve_function)symbol(library, "snapthrough_solve");
+  const sweep_function sweep = (sweep_function)symbol(library, "snapthrough_sweep");
+  const free_function release = (free_function)symbol(library, "snapthrough_free");
   for (int i = 3; i < argc; ++i) {
     const char* name = name_of(argv[i]);
     size_t length = 0;
