@@ -17,6 +17,7 @@ namespace snapthrough::server::test {
 namespace {
 
 using nlohmann::json;
+using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 class ClusterTest : public ServiceTest {
@@ -323,6 +324,24 @@ TEST(SharedStore, StatementsWhoseCommitFailsHaveFailed) {
   const std::vector<postgresql::Statement> end{{"SELECT pg_terminate_backend(pg_backend_pid())"}};
   EXPECT_THROW(connection.run_all(end), postgresql::Error);
   EXPECT_FALSE(connection.good());
+}
+
+/// The rings of a process come to its own connection, too: those of others wake it.
+TEST(SharedStore, AProcessDoesNotWakeAtItsOwnRings) {
+  const TempDir folder;
+  const std::string location = postgresql_location(folder.name());
+  const auto own = open_store(location, 1, at_second(0));
+  const auto other = open_store(location, 1, at_second(0));
+  ASSERT_TRUE(own.ok()) << own.status().message();
+  ASSERT_TRUE(other.ok()) << other.status().message();
+  const auto is_rung = [&](std::chrono::milliseconds longest) {
+    return (*own)->neighbours()->wait(longest, std::stop_token());
+  };
+  EXPECT_FALSE(is_rung(100ms)) << "it listens from now on";
+  ASSERT_TRUE((*own)->neighbours()->ring().ok());
+  EXPECT_FALSE(is_rung(500ms));
+  ASSERT_TRUE((*other)->neighbours()->ring().ok());
+  EXPECT_TRUE(is_rung(10s));
 }
 
 /// A server that ends a connection while a pipeline waits: who asked is told, and not kept waiting.
