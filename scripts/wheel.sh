@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds a wheel of the Python package into dist/, with the library inside, and solves with that what tests/clients has.
 #   scripts/wheel.sh [x86_64]    Linux on x86-64 with glibc 2.17 or later; the processor decides which of two libraries is taken
-#   scripts/wheel.sh aarch64     Linux on 64-bit ARM with glibc 2.17 or later; its library is tried under emulation
-#   scripts/wheel.sh windows     Windows on x86-64; its library is tried under wine
+#   scripts/wheel.sh aarch64     Linux on 64-bit ARM with glibc 2.17 or later; its library is tried under emulation, by a C program
+#   scripts/wheel.sh windows     Windows on x86-64; its library is tried under wine, by a C program
 #   scripts/wheel.sh none        without a library: for a service, and for Python in a browser (Pyodide), in which it is tried
 # JOBS=n compiles that many files at a time. SOURCE_DATE_EPOCH sets the dates inside; by default that of the commit.
 set -euo pipefail

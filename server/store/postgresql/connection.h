@@ -132,8 +132,8 @@ class Connection {
   void execute(const std::string& sql);
   [[nodiscard]] bool in_transaction() const;
   [[nodiscard]] bool good() const;
-  /// Waits for notifications until that time is over or the bell is rung; returns whether one came whose text
-  /// is not `own`.
+  /// Waits for notifications for at most `longest`, or until the bell is rung; returns whether one came whose
+  /// text is not `own`, which is the text of the notifications that the caller sends.
   /// @pre the connection has run LISTEN
   bool wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell, std::string_view own);
 

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <random>
 #include <string>
 
 #include "server/bell.h"
+#include "server/environment.h"
 #include "server/store/postgresql/parts.h"
 
 namespace snapthrough::server::postgresql {
@@ -133,8 +133,9 @@ class PostgresqlNeighbourStore final : public NeighbourStore {
   }
 
   Database& database_;
-  /// Text of this process's rings, which the listening connection gets too.
-  const std::string name_ = std::to_string(std::random_device()());
+  /// Text of the notifications that this process sends. PostgreSQL delivers them to the process's own
+  /// listening connection, too, where wait() ignores them.
+  const std::string name_ = std::to_string(Environment::system().random_bits());
   std::unique_ptr<Connection> listener_;
   std::chrono::steady_clock::time_point next_try_{};
 };
