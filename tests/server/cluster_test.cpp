@@ -326,7 +326,8 @@ TEST(SharedStore, StatementsWhoseCommitFailsHaveFailed) {
   EXPECT_FALSE(connection.good());
 }
 
-/// The rings of a process come to its own connection, too: those of others wake it.
+/// PostgreSQL delivers a process's notifications to its own listening connection, too; those of other
+/// processes alone end its wait().
 TEST(SharedStore, AProcessDoesNotWakeAtItsOwnRings) {
   const TempDir folder;
   const std::string location = postgresql_location(folder.name());
