@@ -182,6 +182,7 @@ std::vector<std::int64_t> ResultRow::integers(int column) const {
 
 std::vector<std::string> Rows::texts(int column) const {
   std::vector<std::string> all;
+  all.reserve(static_cast<std::size_t>(count()));
   for (int row = 0; row < count(); ++row) {
     all.push_back((*this)[row].text(column));
   }
