@@ -321,6 +321,7 @@ void Service::stop() {
   context.health.draining = true;
   parts_->listener.begin_drain();
   std::this_thread::sleep_for(config_.drain_delay);
+  parts_->store->hurry();
   parts_->workers.stop();
   context.completions.close();  // after the workers: waiting clients then get the final status of their jobs
   parts_->listener.stop();

@@ -175,6 +175,10 @@ class Store {
   /// Messages between processes that share the store; null: one process at a time owns the store. Lives as
   /// long as this store.
   virtual NeighbourStore* neighbours() { return nullptr; }
+
+  /// Called when the service stops: a verb then ends with `unavailable` within 10 s when the database does
+  /// not answer. Before, it waits until the database answers or the connection is lost.
+  virtual void hurry() {}
 };
 
 }  // namespace snapthrough::server

@@ -7,6 +7,8 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 namespace snapthrough::server::postgresql {
 namespace {
@@ -68,6 +70,9 @@ constexpr std::array kKeywords{"application_name",    "connect_timeout",  "keepa
                                "client_encoding",     "dbname",           static_cast<const char*>(nullptr)};
 constexpr std::array kDefaults{
     "snapthrough", "5", "5", "3", "3", "15000", "UTF8", "", static_cast<const char*>(nullptr)};
+
+/// Longest wait for an answer after the service has begun to stop.
+constexpr std::chrono::seconds kLongestInHurry{5};
 
 }  // namespace
 
@@ -193,7 +198,7 @@ void ResultRow::refuse(const std::string& why) const { throw Error("XX001", why)
 
 void Connection::Close::operator()(pg_conn* connection) const { PQfinish(connection); }
 
-Connection::Connection(const std::string& location) {
+Connection::Connection(const std::string& location, const PollBell* hurry) : hurry_(hurry) {
   // The error does not quote the location, which may have a password.
   PQconninfoOption* const parsed = PQconninfoParse(location.c_str(), nullptr);
   if (parsed == nullptr) {
@@ -213,12 +218,37 @@ bool Connection::good() const { return !cut_ && PQstatus(handle_.get()) == CONNE
 
 bool Connection::in_transaction() const { return PQtransactionStatus(handle_.get()) != PQTRANS_IDLE; }
 
-void Connection::fail(pg_result* result) const {
-  const Rows owned(result);
+void Connection::fail(const Rows& failed) const {
+  const PGresult* result = failed.get();
   const char* state = result == nullptr ? nullptr : PQresultErrorField(result, PG_DIAG_SQLSTATE);
   const char* message = result == nullptr ? nullptr : PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY);
   throw Error(state == nullptr || !good() ? "" : state,
               message == nullptr ? PQerrorMessage(handle_.get()) : message);
+}
+
+/// Waits for the next result of what was sent, which the caller owns; null after the last one. A server that
+/// answers nothing keeps its connection: one whose other processes were killed, or that stands still.
+PGresult* Connection::next_result() {
+  using SteadyClock = std::chrono::steady_clock;
+  std::optional<SteadyClock::time_point> end;
+  while (PQisBusy(handle_.get()) == 1) {
+    std::array<pollfd, 2> waited{pollfd{PQsocket(handle_.get()), POLLIN, 0},
+                                 pollfd{hurry_ == nullptr || end ? -1 : hurry_->descriptor(), POLLIN, 0}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end.value_or(SteadyClock::time_point()) -
+                                                                   SteadyClock::now());
+    const int ready = ::poll(waited.data(), waited.size(), end ? static_cast<int>(left.count()) : -1);
+    if (ready > 0 && waited[0].revents != 0 && PQconsumeInput(handle_.get()) != 1) {
+      break;  // the connection is lost, which PQgetResult() tells
+    }
+    if (waited[1].revents != 0) {
+      end = SteadyClock::now() + kLongestInHurry;
+    }
+    if (end && SteadyClock::now() >= *end) {
+      cut_ = true;
+      throw Error("", "the database did not answer while the service stopped");
+    }
+  }
+  return PQgetResult(handle_.get());
 }
 
 void Connection::send(const Statement& statement) {
@@ -238,15 +268,15 @@ void Connection::send(const Statement& statement) {
 
 Rows Connection::run(std::string_view sql, const Parameters& parameters) {
   send({sql, parameters});
-  PGresult* result = PQgetResult(handle_.get());
-  while (PGresult* more = PQgetResult(handle_.get())) {
+  Rows result(next_result());
+  while (PGresult* more = next_result()) {
     PQclear(more);
   }
-  const ExecStatusType status = PQresultStatus(result);
+  const ExecStatusType status = PQresultStatus(result.get());
   if (status != PGRES_TUPLES_OK && status != PGRES_COMMAND_OK) {
     fail(result);
   }
-  return Rows(result);
+  return result;
 }
 
 std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
@@ -261,10 +291,10 @@ std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
   }
   PQpipelineSync(handle_.get());
   std::vector<Rows> all;
-  PGresult* failed = nullptr;
+  Rows failed(nullptr);
   cut_ = !read_pipeline(all, failed);
   PQexitPipelineMode(handle_.get());
-  if (cut_ || failed != nullptr || all.size() != statements.size()) {
+  if (cut_ || failed.get() != nullptr || all.size() != statements.size()) {
     fail(failed);
   }
   return all;
@@ -272,12 +302,12 @@ std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
 
 /// @brief Reads the results of a pipeline up to its synchronisation, which follows the commit: only then it
 /// is known that the commit did not fail.
-/// @param failed the first error, which the caller owns, or null
+/// @param failed the first error, if any
 /// @return false when the connection was lost before the synchronisation
-bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
+bool Connection::read_pipeline(std::vector<Rows>& all, Rows& failed) {
   bool ended = false;  // a null result ended a statement; a second one: the server is gone
   while (good()) {
-    PGresult* result = PQgetResult(handle_.get());
+    PGresult* result = next_result();
     if (result == nullptr && ended) {
       return false;
     }
@@ -294,8 +324,8 @@ bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
         PQclear(result);
         break;
       default:
-        if (failed == nullptr) {
-          failed = result;
+        if (failed.get() == nullptr) {
+          failed = Rows(result);
         } else {
           PQclear(result);
         }
@@ -305,12 +335,20 @@ bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
 }
 
 void Connection::execute(const std::string& sql) {
-  PGresult* result = PQexec(handle_.get(), sql.c_str());
-  const ExecStatusType status = PQresultStatus(result);
-  if (status != PGRES_TUPLES_OK && status != PGRES_COMMAND_OK && status != PGRES_EMPTY_QUERY) {
-    fail(result);
+  if (PQsendQuery(handle_.get(), sql.c_str()) != 1) {
+    throw Error("", PQerrorMessage(handle_.get()));
   }
-  PQclear(result);
+  Rows failed(nullptr);
+  while (PGresult* result = next_result()) {
+    const ExecStatusType status = PQresultStatus(result);
+    Rows owned(result);
+    if (status != PGRES_TUPLES_OK && status != PGRES_COMMAND_OK && status != PGRES_EMPTY_QUERY) {
+      failed = std::move(owned);
+    }
+  }
+  if (failed.get() != nullptr) {
+    fail(failed);
+  }
 }
 
 bool Connection::take_notifications(std::string_view own) {

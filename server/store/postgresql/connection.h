@@ -99,8 +99,10 @@ class ResultRow final : public Row {
 /// The result of a statement. Rows count from 0.
 class Rows {
  public:
+  /// @param result taken over; null: none
   explicit Rows(pg_result* result);
 
+  [[nodiscard]] const pg_result* get() const { return result_.get(); }
   [[nodiscard]] int count() const;
   [[nodiscard]] bool empty() const { return count() == 0; }
   /// Number of rows that an insert, update or delete changed.
@@ -121,7 +123,9 @@ class Rows {
 class Connection {
  public:
   /// Connects. @param location a connection URI (postgresql://...)
-  explicit Connection(const std::string& location);
+  /// @param hurry rung when the service stops: an answer that is not there 5 s later is waited for no longer,
+  /// and the connection is lost. Null: answers are waited for without bound. It outlives the connection.
+  explicit Connection(const std::string& location, const PollBell* hurry = nullptr);
 
   /// Runs one statement.
   Rows run(std::string_view sql, const Parameters& parameters = {});
@@ -140,14 +144,16 @@ class Connection {
  private:
   bool take_notifications(std::string_view own);
   void send(const Statement& statement);
-  bool read_pipeline(std::vector<Rows>& all, pg_result*& failed);
-  [[noreturn]] void fail(pg_result* result) const;
+  [[nodiscard]] pg_result* next_result();
+  bool read_pipeline(std::vector<Rows>& all, Rows& failed);
+  [[noreturn]] void fail(const Rows& failed) const;
 
   struct Close {
     void operator()(pg_conn* connection) const;
   };
   std::unique_ptr<pg_conn, Close> handle_;
-  bool cut_ = false;  ///< the server went away while a pipeline was read
+  const PollBell* hurry_;
+  bool cut_ = false;  ///< the server went away while a pipeline was read, or did not answer in time
 };
 
 /// @brief A transaction: rolled back when it is destroyed without commit().

@@ -37,11 +37,25 @@ std::unique_ptr<Connection> Pool::take() {
   return connect();
 }
 
+void Pool::hurry() {
+  {
+    const std::lock_guard guard(mutex_);
+    hurried_ = true;
+  }
+  hurry_.ring();
+}
+
+/// Returns when to try to connect again after the database could not be reached.
+std::chrono::steady_clock::time_point Pool::next_try() const {
+  return hurried_ ? std::chrono::steady_clock::time_point::max()
+                  : std::chrono::steady_clock::now() + kBetweenTries;
+}
+
 std::unique_ptr<Connection> Pool::connect() {
   std::unique_ptr<Connection> connection;
   std::optional<Error> trouble;
   try {
-    connection = std::make_unique<Connection>(location_);
+    connection = open();
   } catch (const Error& error) {
     trouble = error;
   }
@@ -50,7 +64,7 @@ std::unique_ptr<Connection> Pool::connect() {
     connecting_ = false;
     if (trouble) {
       --open_;
-      next_try_ = std::chrono::steady_clock::now() + kBetweenTries;
+      next_try_ = next_try();
     }
   }
   returned_.notify_all();
@@ -71,6 +85,9 @@ void Pool::give_back(std::unique_ptr<Connection> connection) {
       lost = std::exchange(idle_, {});
       lost.push_back(std::move(connection));
       open_ -= static_cast<int>(lost.size());
+      if (hurried_) {
+        next_try_ = next_try();
+      }
     }
   }
   returned_.notify_all();

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "server/bell.h"
 #include "server/metrics/metrics.h"
 #include "server/status.h"
 #include "server/store/postgresql/connection.h"
@@ -43,12 +44,19 @@ class Pool {
     std::unique_ptr<Connection> connection_;
   };
 
-  [[nodiscard]] const std::string& location() const { return location_; }
+  /// Opens a connection beside the pool. Throws Error.
+  [[nodiscard]] std::unique_ptr<Connection> open() const {
+    return std::make_unique<Connection>(location_, &hurry_);
+  }
+  /// Ends each wait for an answer after 5 s from now on; a database that did not answer, or could not be
+  /// reached, is not tried again.
+  void hurry();
 
  private:
   std::unique_ptr<Connection> take();
   void give_back(std::unique_ptr<Connection> connection);
   std::unique_ptr<Connection> connect();
+  [[nodiscard]] std::chrono::steady_clock::time_point next_try() const;
 
   const std::string location_;
   const int most_;
@@ -58,6 +66,8 @@ class Pool {
   int open_ = 0;
   bool connecting_ = false;
   std::chrono::steady_clock::time_point next_try_{};
+  const PollBell hurry_;
+  bool hurried_ = false;
 };
 
 /// SQLSTATE that held_job() of the schema raises for a claim that does not hold.
@@ -133,7 +143,9 @@ class Database {
     commit_seconds_.write(text);
     read_seconds_.write(text);
   }
-  [[nodiscard]] const std::string& location() const { return pool_.location(); }
+  /// See Pool.
+  [[nodiscard]] std::unique_ptr<Connection> open() const { return pool_.open(); }
+  void hurry() { pool_.hurry(); }
 
  private:
   static constexpr int kTries = 5;

@@ -522,6 +522,7 @@ class PostgresqlStore final : public Store {
   DeliveryStore& deliveries() override { return *deliveries_; }
   LedgerStore& ledger() override { return *ledger_; }
   NeighbourStore* neighbours() override { return neighbours_.get(); }
+  void hurry() override { database_.hurry(); }
 
  private:
   /// Stores a job without idempotency key, reuse and quotas in one round trip.

@@ -123,7 +123,7 @@ class PostgresqlNeighbourStore final : public NeighbourStore {
     }
     next_try_ = std::chrono::steady_clock::now() + kBetweenTries;
     try {
-      auto connection = std::make_unique<Connection>(database_.location());
+      std::unique_ptr<Connection> connection = database_.open();
       connection->execute("LISTEN snapthrough");
       listener_ = std::move(connection);
       return true;
