@@ -75,10 +75,18 @@ class Database:
     def promote(self):
         self._run("pg_ctl", "-D", self.folder / "data", "-w", "promote")
 
+    def freeze(self):
+        """All its processes stand still. They are returned, the server first, which starts no more of them."""
+        server = int((self.folder / "data" / "postmaster.pid").read_text().split()[0])
+        os.kill(server, signal.SIGSTOP)
+        children = subprocess.run(["pgrep", "-P", str(server)], capture_output=True, text=True, check=False).stdout.split()
+        processes = [server, *map(int, children)]
+        for one in processes:
+            os.kill(one, signal.SIGSTOP)
+        return processes
+
     def kill(self):
-        pid = int((self.folder / "data" / "postmaster.pid").read_text().split()[0])
-        children = subprocess.run(["pgrep", "-P", str(pid)], capture_output=True, text=True, check=False).stdout.split()
-        for one in [pid, *map(int, children)]:
+        for one in self.freeze():
             os.kill(one, signal.SIGKILL)
 
     def start_again(self):
@@ -201,7 +209,7 @@ class Host:
                 self.process.wait(PATIENCE)
             except subprocess.TimeoutExpired:
                 self.kill()
-                raise RuntimeError(f"{self.name} did not stop") from None
+                raise RuntimeError(f"{self.name} did not stop")
 
     def events(self, name):
         """What it logged under that name."""
