@@ -330,7 +330,7 @@ TEST(SharedStore, StatementsWhoseCommitFailsHaveFailed) {
 /// processes alone end its wait().
 TEST(SharedStore, AProcessDoesNotWakeAtItsOwnRings) {
   const TempDir folder;
-  const std::string location = postgresql_location(folder.name());
+  const std::string location = postgresql_database(folder.name());
   const auto own = open_store(location, 1, at_second(0));
   const auto other = open_store(location, 1, at_second(0));
   ASSERT_TRUE(own.ok()) << own.status().message();

@@ -22,16 +22,26 @@ std::string start_server() {
   return "postgresql://snapthrough@/snapthrough?host=" + folder;
 }
 
-}  // namespace
-
-std::string postgresql_location(const std::string& name) {
+const std::string& server_location() {
   static const std::string server = [] {
     const char* given = std::getenv("TEST_POSTGRESQL");
     return given != nullptr ? std::string(given) : start_server();
   }();
+  return server;
+}
+
+}  // namespace
+
+std::string postgresql_location(const std::string& name) {
+  const std::string& server = server_location();
   postgresql::Connection(server).execute("SET client_min_messages = warning; CREATE SCHEMA IF NOT EXISTS \"" +
                                          name + "\"");
   return server + "&options=-csearch_path%3D%22" + name + "%22";
+}
+
+std::string postgresql_database(const std::string& name) {
+  postgresql::Connection(server_location()).execute("CREATE DATABASE \"" + name + "\"");
+  return server_location() + "&dbname=" + name;  // the last of two names counts
 }
 
 }  // namespace snapthrough::server::test
