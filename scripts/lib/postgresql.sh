@@ -46,8 +46,10 @@ start() {
   unprivileged "$bin/pg_ctl" -D "$folder/data" -w -l "$folder/server.log" -o "$options" start >/dev/null
   unprivileged "$bin/createdb" -h "$folder" -U snapthrough snapthrough
   if [ "${LIFE:-}" != own ]; then
-    setsid bash -c 'while kill -0 "$1" 2>/dev/null; do sleep 1; done; exec bash "$2" stop "$3"' \
-      watch "${LIFE:-$PPID}" "$self" "$folder" </dev/null >/dev/null 2>&1 &
+    echo "$$" >"$folder/start" # by which the watcher knows its server: a later one may have the same folder
+    setsid bash -c 'while kill -0 "$1" 2>/dev/null; do sleep 1; done
+      [ "$(cat "$3/start")" != "$4" ] || exec bash "$2" stop "$3"' \
+      watch "${LIFE:-$PPID}" "$self" "$folder" "$$" </dev/null >/dev/null 2>&1 &
   fi
 }
 
