@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tries the archive of scripts/archive.sh in a root that holds nothing but a shell, as root: solves every example, compares with
-# another build of the program, and runs the service with a job.
+# Tries the archive of scripts/archive.sh in a root that holds nothing but a shell, as root: solves every example and what
+# tests/clients has, compares with another build of the program, and runs the service with a job.
 #   scripts/archive_test.sh ARCHIVE [PROGRAM]     PROGRAM: build/release/snapthrough
 # BASE=FOLDER tries it in a copy of that root instead, of whatever distribution.
 set -euo pipefail
@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program="$(realpath "${2:-build/release/snapthrough}")"
 # shellcheck source=scripts/lib/packages.sh
 source scripts/lib/packages.sh
-install_packages busybox-static curl jq
+install_packages busybox-static curl jq python3
 root="$(mktemp -d)"
 service=""
 leave() {
@@ -36,6 +36,8 @@ mkdir -p "$root/proc" "$root/tmp" "$root/dev" "$root/examples" "$root/opt"
 tar -C "$root/opt" -xzf "$archive"
 inside_program="/opt/$(basename "$archive" .tar.gz)/bin/snapthrough"
 cp examples/*.json "$root/examples/"
+mkdir "$root/clients"
+cp -r tests/clients/requests tests/clients/sweep_500.json "$root/clients/"
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
 enter=(env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin chroot "$root")
@@ -58,6 +60,7 @@ for file in examples/*.json; do
   tried=$((tried + 1))
 done
 echo "$tried examples: as those of $program"
+python3 tests/clients/native/compare_programs.py "$program" /clients "${enter[@]}" "$inside_program"
 
 "${enter[@]}" "$inside_program" serve --listen 127.0.0.1:0 --store /tmp/store.db 2>"$root/tmp/log" &
 service=$!
