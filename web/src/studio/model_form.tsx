@@ -2,12 +2,12 @@
 // JSON; both edit the same document.
 
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import type { Finding, RequestDocument } from "../api/documents";
 import { formatNumber } from "../figures";
 import { numbersIn, segments, valueAt, withValue } from "../model/pointer";
 import { LawFigure } from "./law_figure";
-import { readNumber } from "./slider_row";
+import { useTypedNumber } from "./typed_field";
 
 const kMostItems = 30;  // of each list
 
@@ -54,14 +54,10 @@ interface NumberProps extends FormProps {
 
 function NumberField({ request, findings, slid, onChange, onSlider, pointer, name }: NumberProps) {
   const value = valueAt(request, pointer);
-  const [typed, setTyped] = useState<string | null>(null);
-  const wrong = findingsAt(findings, pointer);
+  const { typed, trouble, input, accept, key } = useTypedNumber(typeof value === "number" ? value : null,
+                                                               (next) => onChange(withValue(request, pointer, next)));
+  const wrong = trouble === "" ? findingsAt(findings, pointer).map((one) => one.detail) : [trouble];
   const shown = typed ?? (typeof value === "number" ? formatNumber(value, 6) : "");
-  const accept = (): void => {
-    const next = typed === null ? null : readNumber(typed);
-    if (next !== null && next !== value) onChange(withValue(request, pointer, next));
-    setTyped(null);
-  };
   const id = `field${pointer}`;
   return (
     <div class="field">
@@ -70,9 +66,8 @@ function NumberField({ request, findings, slid, onChange, onSlider, pointer, nam
               aria-label={`Give ${name} a slider`}>+ slider</button>
       <input id={id} type="text" inputMode="decimal" value={shown} aria-invalid={wrong.length > 0}
              aria-describedby={wrong.length > 0 ? `${id}-wrong` : undefined}
-             onInput={(event) => setTyped(event.currentTarget.value)} onBlur={accept}
-             onKeyDown={(event) => (event.key === "Enter" ? accept() : undefined)} />
-      {wrong.length > 0 ? <p class="wrong" id={`${id}-wrong`}>{wrong.map((one) => one.detail).join(" ")}</p> : null}
+             onInput={(event) => input(event.currentTarget.value)} onBlur={accept} onKeyDown={key} />
+      {wrong.length > 0 ? <p class="wrong" id={`${id}-wrong`}>{wrong.join(" ")}</p> : null}
     </div>
   );
 }

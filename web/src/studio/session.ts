@@ -12,6 +12,7 @@ import { formatNumber } from "../figures/numbers";
 import { makeStore } from "../store";
 
 const kWalkWait = 10;  // seconds
+const kBehind = 250;  // ms of waiting for an answer after which what is shown is said to be of an earlier model
 const kRest = 250;  // ms without a change after which states to walk through are asked for
 
 export interface Studio {
@@ -26,24 +27,37 @@ export interface Studio {
   /** The path of an analysis that is still running. */
   growing: Branch[] | null;
   busy: boolean;
+  /** The answer to the request lets wait for itself. */
+  behind: boolean;
   trouble: unknown;
 }
 
 export const studio = makeStore<Studio>({
   request: null, sliders: [], problem: null, run: null, shadow: null, pins: [], choice: { kind: "critical" },
-  growing: null, busy: false, trouble: null,
+  growing: null, busy: false, behind: false, trouble: null,
 });
 
 const latest = new Latest({ answered, failed, isWanted });
 let leaving: Run[] = [];  // runs of the model before, until the next one is shown
 let rest: ReturnType<typeof setTimeout> | undefined;
+let waiting: ReturnType<typeof setTimeout> | undefined;
 let opened = 0;  // models
 let dragStart: Run | null = null;  // what the chart showed before the first of a series of changes
 let following: AbortController | null = null;
 
-/** Whether what is shown is not of the request, and no answer to that will come. */
-export function isStale({ request, run, trouble }: Studio): boolean {
-  return trouble !== null && run !== null && run.asked !== request;
+/** Whether what is shown is not of the request, and no answer to that will come, or none has come for a while. */
+export function isStale({ request, run, behind, trouble }: Studio): boolean {
+  return (behind || trouble !== null) && run !== null && run.asked !== request;
+}
+
+/** Says after a while that what is shown is of an earlier model, unless an answer comes first. */
+function awaitAnswer(): void {
+  waiting ??= setTimeout(() => studio.change({ behind: true }), kBehind);
+}
+
+function endWaiting(): void {
+  clearTimeout(waiting);
+  waiting = undefined;
 }
 
 /** The most requests that were ever in flight, for tests. */
@@ -79,7 +93,9 @@ function release(run: Run | null): void {
 function show(run: Run): void {
   const before = studio.get();
   following?.abort();
-  studio.change({ run, growing: null, busy: false, trouble: null, shadow: dragStart ?? before.shadow });
+  endWaiting();
+  studio.change({ run, growing: null, busy: false, behind: false, trouble: null, shadow: dragStart ?? before.shadow });
+  if (run.asked !== before.request) awaitAnswer();
   for (const old of [before.run, before.shadow, ...leaving]) release(old);
   leaving = [];
   clearTimeout(rest);
@@ -100,7 +116,8 @@ function answered(question: Question, answer: Answer, milliseconds: number): voi
 function failed(question: Question, error: unknown): void {
   if (isAbort(error) || question.model !== opened) return;
   const before = studio.get().run;
-  studio.change({ busy: false, trouble: error, growing: null });
+  endWaiting();
+  studio.change({ busy: false, behind: false, trouble: error, growing: null });
   if (!(error instanceof Refused) || !error.problem.reached) return;
   const job = idOf(error.location ?? "");
   studio.change({ run: makeRun(question, job, error.problem.reached, 0, false) });
@@ -190,6 +207,7 @@ async function atRest(run: Run): Promise<void> {
 function askFor(request: RequestDocument, live: boolean): void {
   dragStart ??= studio.get().run;
   studio.change({ request, busy: true });
+  awaitAnswer();
   const steps = studio.get().run?.result.diagnostics.steps ?? null;
   latest.ask({ asked: request, request: forPictures(request, steps, live), live, model: opened });
 }

@@ -1,9 +1,9 @@
 // One slider: its name, its value as a field that takes any number, and the way between.
 
-import { useState } from "preact/hooks";
 import type { RequestDocument } from "../api/documents";
 import { formatNumber } from "../figures";
 import { kPlaces, placeOf, valueAtPlace, valueOf, type Slider } from "../model/sliders";
+import { useTypedNumber } from "./typed_field";
 
 interface SliderProps {
   slider: Slider;
@@ -12,23 +12,11 @@ interface SliderProps {
   onRemove: (() => void) | null;
 }
 
-/** A number as people type it: 1e4, 10 000, 0,5. */
-export function readNumber(text: string): number | null {
-  const plain = text.replace(/[\s\u202f\u00a0]/g, "").replace(/−/g, "-").replace(",", ".");
-  const value = plain === "" ? Number.NaN : Number(plain);
-  return Number.isFinite(value) ? value : null;
-}
-
 export function SliderRow({ slider, request, onValue, onRemove }: SliderProps) {
   const value = valueOf(slider, request) ?? slider.min;
-  const [typed, setTyped] = useState<string | null>(null);
+  const { typed, trouble, input, accept, key } = useTypedNumber(value, onValue);
   const place = placeOf(slider, value);
   const id = `slider-${slider.targets[0]?.pointer ?? ""}`;
-  const accept = (): void => {
-    const next = typed === null ? null : readNumber(typed);
-    if (next !== null && next !== value) onValue(next);
-    setTyped(null);
-  };
   return (
     <div class="slider">
       <div class="slider-head">
@@ -37,11 +25,13 @@ export function SliderRow({ slider, request, onValue, onRemove }: SliderProps) {
         <span class="slider-value">
           <input type="text" inputMode="decimal" aria-label={`${slider.name}, value${slider.unit ? ` in ${slider.unit}` : ""}`}
                  size={Math.max(4, (typed ?? formatNumber(value, 4)).length)} value={typed ?? formatNumber(value, 4)}
-                 onFocus={(event) => event.currentTarget.select()} onInput={(event) => setTyped(event.currentTarget.value)}
-                 onBlur={accept} onKeyDown={(event) => (event.key === "Enter" ? accept() : undefined)} />
+                 aria-invalid={trouble !== ""} aria-describedby={trouble === "" ? undefined : `${id}-wrong`}
+                 onFocus={(event) => event.currentTarget.select()} onInput={(event) => input(event.currentTarget.value)}
+                 onBlur={accept} onKeyDown={key} />
           <span class="unit">{slider.unit}</span>
         </span>
       </div>
+      {trouble === "" ? null : <p class="wrong" id={`${id}-wrong`} role="alert">{trouble}</p>}
       <div class="track">
         <svg viewBox={`0 0 ${kPlaces} 4`} preserveAspectRatio="none" aria-hidden="true">
           <rect class="track-all" width={kPlaces} height="4" /><rect class="track-part" width={place} height="4" />

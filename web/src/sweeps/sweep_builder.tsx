@@ -6,7 +6,7 @@ import { service } from "../api/client";
 import { go } from "../app/router";
 import { formatNumber } from "../figures";
 import { parameterOf, type Slider } from "../model/sliders";
-import { readNumber } from "../studio/slider_row";
+import { numberOf, readNumber } from "../model/typed_number";
 import { Trouble } from "../studio/trouble";
 
 interface Range {
@@ -26,9 +26,12 @@ function rangeOf(sliders: readonly Slider[], index: number, count: number): Rang
 function outputsOf(request: RequestDocument): string[] {
   if (request.analysis.type === "buckling") return ["/buckling/load_factors/0"];
   if (request.analysis.type === "vibration") return ["/vibrations/0/frequencies/omega_squared/0"];
-  const monitors = (request.model.monitors ?? []).slice(0, 3);
-  const places = request.analysis.type === "static" ? [] : monitors.map(({ id }) =>
-    `/critical_points/0/monitors/${id.replace(/~/g, "~0").replace(/\//g, "~1")}`);
+  const monitors = (request.model.monitors ?? []).slice(0, 3).map(({ id }) => id.replace(/~/g, "~0").replace(/\//g, "~1"));
+  if (request.analysis.type === "static") {
+    const last = (request.analysis.load_factors?.length ?? 1) - 1;
+    return monitors.map((id) => `/static/monitors/${id}/${last}`);
+  }
+  const places = monitors.map((id) => `/critical_points/0/monitors/${id}`);
   const softest = ["/summary/softest/load_factor", "/summary/softest/stiffness_ratio"];
   return ["/summary/critical_load_factor", "/summary/critical_type", "/summary/error_estimate", ...softest, ...places];
 }
@@ -37,9 +40,11 @@ function parameters(sliders: readonly Slider[], ranges: readonly Range[]): Sweep
   const made: SweepDocument["parameters"] = [];
   for (const range of ranges) {
     const slider = sliders[range.slider];
-    const [from, to, count] = [range.from, range.to, range.count].map(readNumber);
     if (!slider) return "Choose a slider.";
-    if (from == null || to == null || count == null) return `${slider.name}: from, to and count are numbers.`;
+    for (const typed of [range.from, range.to, range.count].map(readNumber)) {
+      if ("trouble" in typed) return `${slider.name}: ${typed.trouble}`;
+    }
+    const [from, to, count] = [range.from, range.to, range.count].map((text) => numberOf(text) ?? 0) as [number, number, number];
     if (from === to || !Number.isInteger(count) || count < 2) return `${slider.name}: from and to differ, count is 2 or more.`;
     made.push(parameterOf(slider, slider.unit === "" ? slider.name : `${slider.name} (${slider.unit})`, from, to, count));
   }
@@ -69,9 +74,12 @@ export function SweepBuilder({ request, sliders }: { request: RequestDocument; s
   const [first, setFirst] = useState(() => rangeOf(sliders, 0, 41));
   const [second, setSecond] = useState<Range | null>(null);
   const [trouble, setTrouble] = useState<unknown>(null);
+  if (outputsOf(request).length === 0) {
+    return <p class="hint">Give the model a monitor first: a sweep of static analyses lists what monitors read at the last load factor.</p>;
+  }
   if (sliders.length === 0) return <p class="hint">Give a number of the model a slider first; a sweep goes where its slider goes.</p>;
   const made = parameters(sliders, second ? [first, second] : [first]);
-  const points = [first, ...(second ? [second] : [])].reduce((product, range) => product * (readNumber(range.count) ?? 0), 1);
+  const points = [first, ...(second ? [second] : [])].reduce((product, range) => product * (numberOf(range.count) ?? 0), 1);
   const submit = async (): Promise<void> => {
     if (typeof made === "string") return;
     const output = { states: "none" as const, points_per_member: 2 };

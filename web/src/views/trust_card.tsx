@@ -1,5 +1,5 @@
-// How far a critical load can be trusted: its kind, its estimated error, whether a finer mesh confirms it, and what was
-// left out; and ways to do the same without the page.
+// What was asked, first: the load to use, or what monitors read; then how far it can be trusted: the kind of a critical load, its
+// estimated error, whether a finer mesh confirms it, and what was left out; and ways to do the same without the page.
 
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
@@ -7,7 +7,7 @@ import type { CriticalPoint, Model, RequestDocument, Result, Vibration } from ".
 import { hasKey } from "../api/client";
 import { withShortNumbers } from "../app/words";
 import { curlCommand, fileName, pythonProgram, saveJson } from "../export/files";
-import { formatNumber, formatWithUnit, motionsOf, unitOf, type Quantity } from "../figures";
+import { branchesOf, formatNumber, formatWithUnit, motionsOf, unitOf, type Quantity } from "../figures";
 import type { Run } from "../model/run";
 import { Card } from "./card";
 
@@ -57,18 +57,59 @@ function LowestFrequency({ vibration, earlier }: { vibration: Vibration; earlier
   );
 }
 
-/** What is said where no critical load was found: a failure, unstable rows of a static analysis, or that there is none. */
-function WithoutLoad({ result, earlier }: { result: Result; earlier: ComponentChildren }) {
-  const { failure } = result;
-  const buckling = result.buckling?.load_factors[0];
+/** A reading of a monitor. */
+interface Reading {
+  id: string;
+  text: string;
+}
+
+/** What monitors read at the end of the first path, or in the last row of a static analysis, and the load factor there. */
+function lastReadings({ request, result }: Run): { load: number; readings: Reading[] } | null {
+  const [branch] = branchesOf(result);
+  const last = (branch?.load_factor.length ?? 0) - 1;
+  const load = branch?.load_factor[last];
+  if (!branch || load === undefined) return null;
+  const readings = (request.model.monitors ?? []).flatMap(({ id, component }): Reading[] => {
+    const value = branch.monitors[id]?.[last];
+    return value === undefined ? [] : [{ id, text: readingText(request.model, component, value) }];
+  });
+  return { load, readings };
+}
+
+function readingText(model: Model, component: string, value: number): string {
+  const unit = unitOf(model.units, component === "rotation" ? "rotation" : "length");
+  return formatWithUnit(Math.abs(value) < kNothing ? 0 : value, unit);
+}
+
+/** Why there is no answer: a failure, or unstable rows of a static analysis; null where there is one. */
+function troubleOf(result: Result): { word: string; detail: string } | null {
+  if (result.failure) return { word: result.failure.code.replace(/_/g, " "), detail: result.failure.detail };
   const unstable = warningOf(result, "unstable");
-  const trouble = failure ? failure.code.replace(/_/g, " ") : unstable === undefined ? null : "unstable";
+  return unstable === undefined ? null : { word: "unstable", detail: unstable };
+}
+
+/** What leads where no critical load was found: a failure, the first buckling load, or what a monitor reads at the end. */
+function WithoutLoad({ run, earlier }: { run: Run; earlier: ComponentChildren }) {
+  const { result } = run;
+  const trouble = troubleOf(result);
+  const buckling = result.buckling?.load_factors[0];
+  if (trouble) {
+    return (
+      <>
+        <p class="headline">{earlier ?? <Badge good={false}>{trouble.word}</Badge>}<NearlyUnstable result={result} /></p>
+        <p class="hint">{withShortNumbers(trouble.detail)}</p>
+      </>
+    );
+  }
+  const last = buckling === undefined ? lastReadings(run) : null;
+  const [first] = last?.readings ?? [];
+  const headline = buckling !== undefined ? formatNumber(buckling, 5) : first?.text ?? "none";
+  const hint = buckling !== undefined ? "first buckling load" : `${first && last
+    ? `${first.id} at load factor ${formatNumber(last.load, 5)}, ` : ""}no loss of stability on this path`;
   return (
     <>
-      <p class="headline">{trouble === null ? <strong>{buckling === undefined ? "none" : formatNumber(buckling, 5)}</strong> : null}
-        {earlier ?? (trouble === null ? null : <Badge good={false}>{trouble}</Badge>)}<NearlyUnstable result={result} /></p>
-      <p class="hint">{failure ? withShortNumbers(failure.detail) : unstable !== undefined ? withShortNumbers(unstable)
-        : buckling === undefined ? "no loss of stability on this path" : "first buckling load"}</p>
+      <p class="headline"><strong>{headline}</strong>{earlier}<NearlyUnstable result={result} /></p>
+      <p class="hint">{hint}</p>
     </>
   );
 }
@@ -77,23 +118,48 @@ function NearlyUnstable({ result }: { result: Result }) {
   return warningOf(result, "nearly_unstable") === undefined ? null : <Badge good={false}>nearly unstable</Badge>;
 }
 
-function Headline({ result, stale }: { result: Result; stale: boolean }) {
+/** The load factor to use: that of the softest point where the structure is nearly unstable there; null elsewhere. */
+function loadToUse(result: Result): number | null {
+  const { softest } = result.summary;
+  return softest && warningOf(result, "nearly_unstable") !== undefined ? softest.load_factor : null;
+}
+
+function confirmationOf(result: Result): { good: boolean; word: string } {
+  const good = firstPoint(result)?.confirmed ?? result.summary.error_estimate !== null;
+  return { good, word: good ? "confirmed" : result.discretization.accuracy.requested === null ? "this mesh only" : "not confirmed" };
+}
+
+function Headline({ run, stale }: { run: Run; stale: boolean }) {
+  const { result } = run;
   const { critical_load_factor: load, critical_type: type } = result.summary;
-  const point = firstPoint(result);
   const earlier = stale ? <Badge good={false}>of an earlier model</Badge> : null;
   const vibration = result.failure ? undefined : result.vibrations?.[0];
+  const use = loadToUse(result);
   if (vibration) return <LowestFrequency vibration={vibration} earlier={earlier} />;
-  if (load === null) return <WithoutLoad result={result} earlier={earlier} />;
-  const confirmed = point?.confirmed ?? result.summary.error_estimate !== null;
-  const fixed = result.discretization.accuracy.requested === null;
+  if (load === null) return <WithoutLoad run={run} earlier={earlier} />;
+  const { good, word } = confirmationOf(result);
+  if (use !== null) {
+    return (
+      <>
+        <p class="headline"><strong>{formatNumber(use, 5)}</strong>{earlier}<NearlyUnstable result={result} /></p>
+        <p class="hint">load factor to use; {kindOf(type ?? "")} at {formatNumber(load, 5)} ({word}), {errorText(result)}</p>
+      </>
+    );
+  }
   return (
     <>
-      <p class="headline"><strong>{formatNumber(load, 5)}</strong>
-        {earlier ?? <Badge good={confirmed}>{confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge>}
-        <NearlyUnstable result={result} /></p>
+      <p class="headline"><strong>{formatNumber(load, 5)}</strong>{earlier ?? <Badge good={good}>{word}</Badge>}</p>
       <p class="hint">{kindOf(type ?? "")}, {errorText(result)}</p>
     </>
   );
+}
+
+/** What the card tells. */
+function titleOf(result: Result): string {
+  if (result.vibrations) return "Vibrations";
+  if (loadToUse(result) !== null) return "Load to use";
+  const asked = result.summary.critical_load_factor === null && !troubleOf(result) && !result.buckling && branchesOf(result).length > 0;
+  return asked ? "Result" : "First loss of stability";
 }
 
 function othersText(result: Result): string {
@@ -147,13 +213,13 @@ function softestRows(result: Result): [string, string][] {
 }
 
 /** How far the structure has moved at the critical load, and, where there are several members, the one that buckles. */
-function stateRows(result: Result, model: Model, point: CriticalPoint | undefined): [string, string][] {
+function stateRows(result: Result, model: Model, point: CriticalPoint | undefined, there: string): [string, string][] {
   const { at_critical: moved } = result.summary;
   const rows: [string, string][] = [];
   if (moved) {
     const size = Math.abs(moved.displacement) < kNothing ? 0 : moved.displacement;
     const share = `${formatNumber(100 * moved.relative_displacement, 2)} % of the size`;
-    rows.push(["Moved there", `${formatWithUnit(size, unitOf(model.units, "length"))}, ${share}`]);
+    rows.push([`Moved ${there}`, `${formatWithUnit(size, unitOf(model.units, "length"))}, ${share}`]);
   }
   if (point?.member != null && model.members.length > 1) rows.push(["Member", `${point.member} buckles`]);
   return rows;
@@ -162,15 +228,19 @@ function stateRows(result: Result, model: Model, point: CriticalPoint | undefine
 function rowsOf(run: Run): [string, string][] {
   const { result } = run;
   const point = firstPoint(result);
+  const use = loadToUse(result);
+  const there = point && use !== null ? `at ${formatNumber(point.load_factor, 5)}` : "there";
+  const [usable, load] = [use, point?.load_factor].map((factor) => (factor == null ? "" : loadText(run.request.model, factor)));
   const rows = softestRows(result);
-  const load = point ? loadText(run.request.model, point.load_factor) : "";
-  if (load !== "") rows.push(["Load there", load]);
-  rows.push(...stateRows(result, run.request.model, point));
+  if (usable) rows.push(["Load to use", usable]);
+  if (load) rows.push([`Load ${there}`, load]);
+  rows.push(...stateRows(result, run.request.model, point, there));
   for (const { id, component } of run.request.model.monitors ?? []) {
     const value = point?.monitors[id];
-    if (value === undefined) continue;
-    const unit = unitOf(run.request.model.units, component === "rotation" ? "rotation" : "length");
-    rows.push([`${id} there`, formatWithUnit(Math.abs(value) < kNothing ? 0 : value, unit)]);
+    if (value !== undefined) rows.push([`${id} ${there}`, readingText(run.request.model, component, value)]);
+  }
+  if (!point && result.summary.critical_load_factor === null) {
+    rows.push(...(lastReadings(run)?.readings ?? []).slice(troubleOf(result) ? 0 : 1).map(({ id, text }): [string, string] => [id, text]));
   }
   if (point && result.critical_points.length > 0) rows.push(["Also on this path", othersText(result)]);
   rows.push(["Mesh", meshText(result)], ["Effort", effortText(run)]);
@@ -204,8 +274,8 @@ export function TrustCard({ run, request, stale = false, class: name = "" }: Tru
   const { result } = run;
   const file = fileName(request.model.title ?? "", "");
   return (
-    <Card title={result.vibrations ? "Vibrations" : "First loss of stability"} class={`trust-card ${name}`}>
-      <Headline result={result} stale={stale} />
+    <Card title={titleOf(result)} class={`trust-card ${name}`}>
+      <Headline run={run} stale={stale} />
       <dl class="rows">
         {rowsOf(run).map(([term, value]) => <div key={term}><dt>{term}</dt><dd>{value}</dd></div>)}
       </dl>
