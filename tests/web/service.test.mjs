@@ -1,11 +1,11 @@
 // The page and what can become of the service, of jobs and of sweeps.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
-import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { drawnPath, openPage, settled, slide } from './support/browser.mjs';
+import { drawnPath, eventually, openPage, settled, slide } from './support/browser.mjs';
 import { startService } from './support/service.mjs';
 import { browser, close, example, service } from './support/stage.mjs';
 
@@ -51,6 +51,27 @@ test('jobs are listed live, filtered, opened and deleted', async () => {
   await row.nth(1).waitFor();  // the studio asked for it once more
   await row.last().getByRole('button', { name: /^Delete/ }).click();
   await row.nth(1).waitFor({ state: 'detached' });
+  await close(page);
+});
+
+test('a sweep of static analyses has what the monitors read', async () => {
+  const request = JSON.parse(await readFile(new URL('../clients/requests/static.json', import.meta.url)));
+  request.model.monitors = [{ id: 'middle', at: { member: request.model.members[0].id, fraction: 0.5 }, component: 'y' }];
+  const job = await submit(request);
+  const page = await openPage(browser, `${service.url}/#/studio?job=${job}`);
+  await page.locator('.trust-card h2', { hasText: 'Result' }).waitFor();
+  await page.locator('.model-form summary', { hasText: 'Sections' }).click();
+  await page.getByRole('button', { name: 'Give EI a slider' }).click();
+  await page.getByRole('tab', { name: 'Sweep' }).click();
+  await page.getByRole('button', { name: 'Start the sweep' }).click();
+  await page.waitForURL(/#\/sweeps\//);
+  const sweep = page.url().split('/').at(-1);
+  const read = async (path) => (await fetch(`${service.url}/v1/sweeps/${sweep}${path}`)).json();
+  await eventually(async () => (await read('')).status === 'successful', 'the sweep ends');
+  const { rows, columns } = await read('/table');
+  const middle = columns.findIndex((name) => JSON.stringify(name).includes('/static/monitors/middle/'));
+  assert.equal(rows.length, 41);
+  assert.ok(middle >= 0 && rows.every((row) => row[middle] < 0), JSON.stringify({ columns, row: rows[0] }));
   await close(page);
 });
 
