@@ -6,7 +6,7 @@ import type { components } from "../../api/types";
 import { at, interpolate, last } from "../geometry";
 import { Occupancy, placeLabel, textWidth } from "../labels";
 import { formatNumber, formatWithUnit, unitOf, type Quantity, type Units } from "../numbers";
-import { coordinate, figure, group, label, line, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
+import { coordinate, figure, group, label, line, pathData, shape, type Anchor, type Pixel, type Shape, type Size } from "../shape";
 import { makeScale, place, ticks, valueAt, type Scale } from "./axes";
 import { thinned } from "./thin";
 
@@ -130,6 +130,7 @@ const kLeastWidth = 84;
 const kRowGap = 10;
 const kGap = 16;
 const kSide = 4;
+const kBetweenTicks = 6;
 
 /** Columns of panels: as many as leave each wide enough to be read. */
 function columnsOf(count: number, size: Size): number {
@@ -229,16 +230,37 @@ function memberMarks(chart: SectionsChart, panel: SectionPanel): Shape[] {
   });
 }
 
+interface LengthTick {
+  x: number;
+  anchor: Anchor;
+  text: string;
+  /** Where the text begins and ends. */
+  from: number;
+  to: number;
+}
+
+function lengthTick(panel: SectionPanel, value: number, text: string): LengthTick {
+  const x = place(panel.x, value);
+  const anchor = x - panel.x.start < 12 ? "start" : panel.x.end - x < 24 ? "end" : "middle";
+  const width = textWidth(text);
+  const from = x - { start: 0, middle: 0.5, end: 1 }[anchor] * width;
+  return { x, anchor, text, from, to: from + width };
+}
+
+/** Lengths along the only member. The last one has the unit; of the others those have texts that leave room between them. */
 function lengthTicks(chart: SectionsChart, panel: SectionPanel, units: Units | undefined): Shape[] {
   const [only] = chart.members;
   if (chart.members.length !== 1 || !only) return [];
   const marks = ticks(panel.x, 70);
-  return marks.map((value, i) => {
-    const x = place(panel.x, value);
-    const anchor = x - panel.x.start < 12 ? "start" : panel.x.end - x < 24 ? "end" : "middle";
-    const text = i === marks.length - 1 ? formatWithUnit(value, unitOf(units, "length")) : formatNumber(value);
-    return group("section-tick", line("axis", { x, y: footTop(panel) }, { x, y: footTop(panel) + 3 }),
-                 label("tick", { x, y: footTop(panel) + 15 }, anchor, i === 0 && value === 0 ? "s = 0" : text));
+  const all = marks.map((value, i) => lengthTick(panel, value,
+    i === marks.length - 1 ? formatWithUnit(value, unitOf(units, "length")) : i === 0 && value === 0 ? "s = 0" : formatNumber(value)));
+  const last = all[all.length - 1];
+  let end = -Infinity;
+  return all.map((tick) => {
+    const fits = tick === last || (tick.from >= end + kBetweenTicks && tick.to + kBetweenTicks <= (last?.from ?? Infinity));
+    if (fits) end = tick.to;
+    return group("section-tick", line("axis", { x: tick.x, y: footTop(panel) }, { x: tick.x, y: footTop(panel) + 3 }),
+                 ...(fits ? [label("tick", { x: tick.x, y: footTop(panel) + 15 }, tick.anchor, tick.text)] : []));
   });
 }
 
