@@ -9,7 +9,7 @@ import { bucklingFrame } from "../../../web/src/figures/chart/buckling";
 import { contours } from "../../../web/src/figures/chart/contours";
 import { bandLevels } from "../../../web/src/figures/chart/sweep_map";
 import { formatNumber } from "../../../web/src/figures/numbers";
-import { boxOf, must, piecesOf, pointsOf, readCase, readTable, textsOf, withClass } from "./support";
+import { boxOf, must, piecesOf, pointsOf, readCase, readTable, textOf, textsOf, withClass } from "./support";
 
 const size = { width: 560, height: 420 };
 const kLoad = { column: "/summary/critical_load_factor" };
@@ -110,6 +110,23 @@ test("values of a panel do not cover one another", () => {
         const boxes = [...withClass(panel, "section-value"), ...withClass(panel, "contact-text")].map(boxOf);
         boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) =>
           assert.ok(a.right <= b.left || b.right <= a.left || Math.abs(a.y - b.y) >= 11, `${name} ${JSON.stringify([a, b])}`)));
+      }
+    }
+  }
+});
+
+test("lengths along a member have room between them, and the last one has its unit", () => {
+  const whole = sectionsOf("pile");
+  for (const factor of [1, 7, 50, 600, 9e4]) {
+    const state = JSON.parse(JSON.stringify(whole.state), (key, value: unknown) =>
+      key === "s" ? (value as number[]).map((s) => factor * s) : value) as typeof whole.state;
+    for (const width of [260, 420, 560, 900]) {
+      const picture = sectionsFigure({ ...whole, state }, { width, height: 150 });
+      for (const panel of withClass(picture, "section")) {
+        const texts = withClass(panel, "tick").filter((one) => one.name === "text");
+        assert.ok(textOf(must(texts[texts.length - 1])).endsWith("m"), textOf(must(texts[texts.length - 1])));
+        const boxes = texts.map(boxOf);
+        boxes.slice(1).forEach((box, j) => assert.ok(box.left >= must(boxes[j]).right, `${factor} ${width} ${texts.map(textOf).join("|")}`));
       }
     }
   }
