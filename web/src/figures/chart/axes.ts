@@ -1,5 +1,6 @@
 // Scales, round ticks, grid and axis labels that all charts share.
 
+import { textWidth } from "../labels";
 import { formatNumber } from "../numbers";
 import { coordinate, group, label, line, shape, type Shape, type Size } from "../shape";
 
@@ -105,19 +106,39 @@ function written(scale: Scale, names: readonly string[] | undefined, values: rea
   return names.flatMap((text, value) => (value % every === 0 ? [{ value, text }] : []));
 }
 
-/** Grid, zero lines and numbers. */
+const kBetween = 6;  // pixels between texts below an axis
+const kLineHeight = 14;
+
+/** Room at the left of a plot for the texts of its upright axis and its name. */
+export function leftRoom({ y, yNames, yValues }: Pick<Frame, "y" | "yNames" | "yValues">): number {
+  return 30 + written(y, yNames, yValues, 50).reduce((most, { text }) => Math.max(most, textWidth(text)), 0);
+}
+
+/** Values of a sweep's parameter that can be written at an axis: few, and exact in three digits. */
+export function fewRound(values: readonly number[]): readonly number[] | undefined {
+  return values.length <= 10 && values.every((value) => Number(value.toPrecision(3)) === value) ? values : undefined;
+}
+
+/** Grid, zero lines and numbers. A number that would cover the one before is left out. */
 export function frameShapes(frame: Frame, size: Size): Shape {
   const { x, y } = frame;
   const shapes: Shape[] = [];
+  let free = -Infinity;
   for (const { value, text } of written(x, frame.xNames, frame.xValues, 80)) {
     const px = place(x, value);
-    shapes.push(line(value === 0 && !x.log && !frame.xNames ? "grid zero" : "grid", { x: px, y: y.start }, { x: px, y: y.end }),
-                label("tick", { x: px, y: y.start + 16 }, "middle", text));
+    const half = textWidth(text) / 2;
+    shapes.push(line(value === 0 && !x.log && !frame.xNames ? "grid zero" : "grid", { x: px, y: y.start }, { x: px, y: y.end }));
+    if (px - half < free) continue;
+    free = px + half + kBetween;
+    shapes.push(label("tick", { x: px, y: y.start + 16 }, "middle", text));
   }
+  free = Infinity;
   for (const { value, text } of written(y, frame.yNames, frame.yValues, 50)) {
     const py = place(y, value);
-    shapes.push(line(value === 0 && !y.log && !frame.yNames ? "grid zero" : "grid", { x: x.start, y: py }, { x: x.end, y: py }),
-                label("tick", { x: x.start - 8, y: py + 4 }, "end", text));
+    shapes.push(line(value === 0 && !y.log && !frame.yNames ? "grid zero" : "grid", { x: x.start, y: py }, { x: x.end, y: py }));
+    if (py > free) continue;
+    free = py - kLineHeight;
+    shapes.push(label("tick", { x: x.start - 8, y: py + 4 }, "end", text));
   }
   const middle = (y.start + y.end) / 2;
   const upright = label("axis-label", { x: 12, y: middle }, "middle", frame.yLabel);

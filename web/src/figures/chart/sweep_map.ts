@@ -1,11 +1,11 @@
 // A sweep over two parameters: a map of an output in bands between round values, contour lines on their borders, failed
-// points crossed out. The bands grow darker with the value, so that they are read in grey as well.
+// points crossed out. The bands grow darker with the value (lighter on a dark page), so that they are read in grey as well.
 
 import { at } from "../geometry";
 import { Occupancy, placeLabel, textWidth } from "../labels";
 import { formatNumber } from "../numbers";
 import { coordinate, figure, group, label, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
-import { frameShapes, makeScale, place, plotArea, roundStep, widened, type Frame, type Scale } from "./axes";
+import { fewRound, frameShapes, leftRoom, makeScale, place, plotArea, roundStep, widened, type Frame, type Scale } from "./axes";
 import { contours } from "./contours";
 import { columnLabel, columnOf, errorsOf, extentOf, failureText, type Column, type RowError, type SweepAxis, type Table } from "./sweep";
 
@@ -128,15 +128,16 @@ export function sweepMapChart(input: SweepMapInput, size: Size): SweepMapChart {
   });
   const xs = distinct(x.values);
   const ys = distinct(y.values);
-  const top = failureText(errors) === "" ? 12 : 28;
+  const top = failureText(errors) === "" && spots.every((spot) => Number.isFinite(spot.value)) ? 12 : 28;
   const [low, high] = extentOf(value.values, input.value.log);
   const levels = bandLevels(low, high, input.value.log);
+  const upright = {
+    y: cellScale(y, ys, input.y.log ?? false, Math.max(60, size.height - 44), top), yNames: y.names ?? undefined, yValues: fewRound(ys),
+  };
+  const left = Math.max(66, leftRoom(upright));
   const frame = {
-    x: cellScale(x, xs, input.x.log ?? false, 66, Math.max(90, size.width - barWidth(levels))),
-    y: cellScale(y, ys, input.y.log ?? false, Math.max(60, size.height - 44), top),
-    xLabel: columnLabel(input.x), yLabel: columnLabel(input.y),
-    xNames: x.names ?? undefined, yNames: y.names ?? undefined,
-    xValues: xs.length <= 10 ? xs : undefined, yValues: ys.length <= 10 ? ys : undefined,
+    ...upright, x: cellScale(x, xs, input.x.log ?? false, left, Math.max(left + 24, size.width - barWidth(levels))),
+    xLabel: columnLabel(input.x), yLabel: columnLabel(input.y), xNames: x.names ?? undefined, xValues: fewRound(xs),
   };
   return {
     frame, xs, ys, xEdges: edges(frame.x, xs), yEdges: edges(frame.y, ys), cells: gridCells(spots, xs, ys), spots,
@@ -247,6 +248,20 @@ function barShape(chart: SweepMapChart, name: string): Shape {
   return group("bar", ...shapes, upright);
 }
 
+/** What the marks above the map mean: points that failed, and analyses without this output. */
+function keyShapes(chart: SweepMapChart): Shape[] {
+  const failures = failureText(chart.spots.map((spot) => spot.error));
+  const left = chart.frame.x.start;
+  const shapes = failures === "" ? [] : [
+    shape("path", { class: "mark failed", d: crossData({ x: left + 4, y: 10 }, 4) }), label("muted", { x: left + 14, y: 14 }, "start", failures),
+  ];
+  const empty = chart.spots.filter((spot) => !Number.isFinite(spot.value) && spot.error === null).length;
+  if (empty === 0) return shapes;
+  const x = left + (failures === "" ? 0 : 34 + textWidth(failures));
+  return [...shapes, shape("rect", { class: "band no-value", x: coordinate(x), y: 5, width: 10, height: 10 }),
+          label("muted", { x: x + 15, y: 14 }, "start", `${empty} without a value`)];
+}
+
 /**
  * A map of an output over two parameters, as the table has them (docs/sweeps.md): cells of a grid that reach half way to their
  * neighbours, or dots where the points are no grid. Contour lines are linear between the centres of cells.
@@ -256,7 +271,6 @@ export function sweepMap(input: SweepMapInput, size: Size, chart: SweepMapChart 
   taken.addBox({ left: 0, top: 0, right: chart.frame.x.start, bottom: size.height });
   taken.addBox({ left: chart.frame.x.end, top: 0, right: size.width, bottom: size.height });
   taken.addBox({ left: 0, top: chart.frame.y.start, right: size.width, bottom: size.height });
-  const failures = failureText(chart.spots.map((spot) => spot.error));
   const name = columnLabel(input.value);
   const chosen = chart.spots.find((spot) => spot.row === input.chosen);
   return figure("chart sweep-map", size, `${name} over ${chart.frame.xLabel} and ${chart.frame.yLabel}`,
@@ -264,8 +278,7 @@ export function sweepMap(input: SweepMapInput, size: Size, chart: SweepMapChart 
                 contourShapes(chart, taken), failedShapes(chart), plotArea(chart.frame), barShape(chart, name),
                 chosen ? shape("circle", { class: "chosen-ring open", cx: coordinate(place(chart.frame.x, chosen.x)),
                                            cy: coordinate(place(chart.frame.y, chosen.y)), r: 6.5 }) : null,
-                failures === "" ? null : shape("path", { class: "mark failed", d: crossData({ x: 70, y: 10 }, 4) }),
-                failures === "" ? null : label("muted", { x: 80, y: 14 }, "start", failures));
+                ...keyShapes(chart));
 }
 
 /** The row at a pixel: of its cell, or of the nearest dot within 12 pixels; null when there is none. */
