@@ -248,6 +248,26 @@ test("contour lines are where the level is, also around a saddle", () => {
   for (const point of must(contours(hole, [0])[0]).flat()) assert.ok(Math.hypot(point.x, point.y) > 0.4);
 });
 
+test("numbers at the axes of a map leave room for one another and for its name", () => {
+  const [kColumn, eiColumn, loadColumn] = ["k", "EI", "/summary/critical_load_factor"].map((name) => map.table.columns.indexOf(name));
+  for (const [k, ei] of [[1, 1], [1.2345678e7, 1], [7.654321e5, 3.14159e8], [1.3e-6, 2.71828e-4]] as const) {
+    const rows = map.table.rows.map((row) => row.map((cell, column) =>
+      typeof cell !== "number" ? cell : column === kColumn ? k * cell : column === eiColumn ? ei * cell : cell));
+    for (const [width, height] of [[300, 260], [560, 420], [900, 400]] as const) {
+      const picture = sweepMap({ ...map, table: { ...map.table, rows } }, { width, height });
+      const boxes = withClass(must(withClass(picture, "frame")[0]), "tick").map(boxOf);
+      assert.ok(boxes.length >= 2);
+      boxes.forEach((a, n) => boxes.slice(n + 1).forEach((b) =>
+        assert.ok(a.right <= b.left || b.right <= a.left || Math.abs(a.y - b.y) >= 11, `${k} ${width} ${JSON.stringify([a, b])}`)));
+      assert.ok(boxes.every(({ left }) => left >= 18), "the name of the upright axis is not covered");
+    }
+  }
+  const emptied = map.table.rows.map((row, n) => (n === 3 ? row.map((cell, column) => (column === loadColumn ? null : cell)) : row));
+  const texts = textsOf(sweepMap({ ...map, table: { ...map.table, rows: emptied } }, size));
+  assert.ok(texts.includes("1 without a value"), texts.join("|"));
+  assert.ok(!textsOf(sweepMap(map, size)).some((text) => text.includes("without a value")));
+});
+
 test("points that are no grid are dots", () => {
   const rows = Array.from({ length: 30 }, (_, i) => [Math.sin(i) * 5, Math.cos(i * 1.7) * 3, i, null]);
   const table: Table = { ...unmade, columns: ["a", "b", "c", "error"], rows, points: rows.map((_, i) => i), links: { request: "", job: "" } };
