@@ -8,11 +8,9 @@ import { groundShapes, reactionShapes } from "./ground";
 import { loadShapes } from "./loads";
 import { captionShape, dimensionShapes, sceneCaption, hingeShapes, monitorShapes } from "./notes";
 import {
-  makeScene, placeOn, sceneView, toPixel, type DrawingInput, type DrawnMember, type Scene, type View,
+  kModeShare, makeScene, placeOn, sceneView, toPixel, type DrawingInput, type DrawnMember, type Scene, type View,
 } from "./scene";
 import { springShapes, supportShapes } from "./supports";
-
-const kModeShare = 0.1;  // of the structure's extent: how large a mode is drawn
 
 function pixels(x: readonly number[], y: readonly number[], view: View): Pixel[] {
   return x.map((value, i) => toPixel(view, { x: value, y: at(y, i) }));

@@ -116,6 +116,24 @@ function addJoint(joints: Map<string, Joint>, node: string, member: DrawnMember,
 }
 
 /** The members and joints of the input; members whose nodes are missing or coincide are left out. */
+/** Share of the structure's extent: how large a mode is drawn. */
+export const kModeShare = 0.1;
+
+/** How far a mode reaches in both of its directions, and in all phases of a motion that has two shapes. */
+function reachOfMode({ mode, quadrature }: DrawingInput, members: ReadonlyMap<string, DrawnMember>, extent: number): { x: number[]; y: number[] }[] {
+  return Object.entries(mode?.members ?? {}).flatMap(([id, { s, u, v }]) => {
+    const member = members.get(id);
+    const later = quadrature?.members[id];
+    if (!member) return [];
+    const reach = (now: readonly number[], then: readonly number[] | undefined, i: number): number =>
+      kModeShare * extent * Math.hypot(at(now, i), then ? at(then, i) : 0);
+    return [-1, 1].map((sign) => ({
+      x: s.map((here, i) => interpolate(member.s, member.x, here) + sign * reach(u, later?.u, i)),
+      y: s.map((here, i) => interpolate(member.s, member.y, here) + sign * reach(v, later?.v, i)),
+    }));
+  });
+}
+
 export function makeScene(input: DrawingInput): Scene {
   const nodes = new Map(input.model.nodes.map((node) => [node.id, node]));
   const members = new Map<string, DrawnMember>();
@@ -134,6 +152,7 @@ export function makeScene(input: DrawingInput): Scene {
   for (const state of input.room ?? []) {
     for (const member of Object.values(state.members)) shapes.push({ x: member.x, y: member.y });
   }
+  shapes.push(...reachOfMode(input, members, extent));
   const gaps = (input.model.foundations ?? []).map(largestGap).filter((gap) => gap < extent);
   const depth = Math.max(0.13 * extent, ...gaps.map((gap) => 0.8 * gap));
   const symmetry = input.mirror === false ? null : symmetryLine(input.model, members, extent);
