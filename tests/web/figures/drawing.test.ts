@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
-  drawingCaption, drawingFigure, drawingView, locate, suggestedFactor, toModel, toPixel, toText, zoomed, type DrawingInput, type Pixel,
+  drawingCaption, drawingFigure, drawingView, locate, modeMotion, suggestedFactor, toModel, toPixel, toText, zoomed, type DrawingInput, type Pixel,
   type Shape,
 } from "../../../web/src/figures/index";
 import { distanceTo, kCases, must, piecesOf, pointsOf, readCase, textsOf, withClass, type Request } from "./support";
@@ -137,6 +137,26 @@ test("bilateral bases have no contact zones but a reaction, drawn into the mediu
 });
 
 /** Points of the load arrows: tail and tip of each. */
+test("a mode is inside the drawing, in all phases", () => {
+  let tried = 0;
+  for (const name of kCases) {
+    const { request: { model }, result } = readCase(name);
+    const modes = [...result.critical_points.map((point) => point.mode), ...(result.buckling?.modes ?? [])];
+    for (const mode of modes) {
+      if (!mode) continue;
+      for (const [width, height] of [[560, 420], [300, 500], [900, 200], [1200, 150]] as const) {
+        const input = { model, mode };
+        const motion = modeMotion(input, drawingView(input, { width, height }));
+        for (const point of [0, 1, Math.PI].flatMap((phase) => withClass(motion(phase), "mode").flatMap(pointsOf))) {
+          assert.ok(point.x >= 0 && point.x <= width && point.y >= 0 && point.y <= height, `${name} ${width} ${JSON.stringify(point)}`);
+        }
+        tried += 1;
+      }
+    }
+  }
+  assert.ok(tried > 20);
+});
+
 function arrows(model: Model, loadFactor: number | null = null): { tail: Pixel; tip: Pixel }[] {
   const picture = drawingFigure({ model, loadFactor }, size);
   const tails = piecesOf(only(picture, "load")).map((piece) => must(piece[0]));
