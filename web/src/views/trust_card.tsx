@@ -124,6 +124,11 @@ function loadToUse(result: Result): number | null {
   return softest && warningOf(result, "nearly_unstable") !== undefined ? softest.load_factor : null;
 }
 
+function ratioText(result: Result): string {
+  const ratio = result.summary.softest?.stiffness_ratio;
+  return ratio == null ? "" : `, stiffness ratio ${formatNumber(ratio, 3)}`;
+}
+
 function confirmationOf(result: Result): { good: boolean; word: string } {
   const good = firstPoint(result)?.confirmed ?? result.summary.error_estimate !== null;
   return { good, word: good ? "confirmed" : result.discretization.accuracy.requested === null ? "this mesh only" : "not confirmed" };
@@ -142,7 +147,7 @@ function Headline({ run, stale }: { run: Run; stale: boolean }) {
     return (
       <>
         <p class="headline"><strong>{formatNumber(use, 5)}</strong>{earlier}<NearlyUnstable result={result} /></p>
-        <p class="hint">load factor to use; {kindOf(type ?? "")} at {formatNumber(load, 5)} ({word}), {errorText(result)}</p>
+        <p class="hint">load factor to use{ratioText(result)}; {kindOf(type ?? "")} at {formatNumber(load, 5)} ({word}), {errorText(result)}</p>
       </>
     );
   }
@@ -230,10 +235,10 @@ function rowsOf(run: Run): [string, string][] {
   const point = firstPoint(result);
   const use = loadToUse(result);
   const there = point && use !== null ? `at ${formatNumber(point.load_factor, 5)}` : "there";
-  const [usable, load] = [use, point?.load_factor].map((factor) => (factor == null ? "" : loadText(run.request.model, factor)));
-  const rows = softestRows(result);
-  if (usable) rows.push(["Load to use", usable]);
-  if (load) rows.push([`Load ${there}`, load]);
+  const factor = use ?? point?.load_factor;
+  const load = factor === undefined ? "" : loadText(run.request.model, factor);
+  const rows = use === null ? softestRows(result) : [];
+  if (load !== "") rows.push([use === null ? "Load there" : "Load to use", load]);
   rows.push(...stateRows(result, run.request.model, point, there));
   for (const { id, component } of run.request.model.monitors ?? []) {
     const value = point?.monitors[id];
