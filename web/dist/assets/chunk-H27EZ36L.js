@@ -1,1 +1,0 @@
-import{e as t}from"./chunk-3ERR5UAD.js";function n(r,e){t(()=>{let o=e===""?null:document.getElementById(e);o?.scrollIntoView(),o?.focus({preventScroll:!0}),e===""&&scrollTo(0,0)},[r,e])}export{n as a};

@@ -1,0 +1,1 @@
+import{e as t}from"./chunk-MEXXMCVP.js";function n(r,e){t(()=>{let o=e===""?null:document.getElementById(e);o?.scrollIntoView(),o?.focus({preventScroll:!0}),e===""&&scrollTo(0,0)},[r,e])}export{n as a};
