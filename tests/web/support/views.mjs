@@ -5,15 +5,30 @@ import { join } from 'node:path';
 import { openPage, settled, slide } from './browser.mjs';
 import { exampleOf, startService } from './service.mjs';
 
-const kRest = 900;        // ms in which the studio has asked for the states to walk through
+const kRest = 900;        // ms without a request after which the studio has the states to walk through
+const kLongest = 60_000;  // ms
 const kKey = 'the key of the pictures';
 const kProblems = ['buried_pipe', 'tunnel_arch', 'column_between_walls', 'pile_in_soil', 'portal_sway', 'pipeline_upheaval',
                    'film_on_substrate', 'arch_no_base', 'frame_nearly_unstable', 'frame_portal'];
 export const kSizes = { wide: { width: 1440, height: 900 }, tablet: { width: 1024, height: 768 }, phone: { width: 390, height: 844 } };
 
+/** Waits until the page has its answers and asks for nothing more. */
 async function still(page) {
+  const open = new Set();
+  let last = performance.now();
+  const begun = (request) => open.add(request);
+  const ended = (request) => {
+    open.delete(request);
+    last = performance.now();
+  };
+  page.on('request', begun).on('requestfinished', ended).on('requestfailed', ended);
   await settled(page);
-  await page.waitForTimeout(kRest);
+  const start = performance.now();
+  last = start;
+  while ((open.size > 0 || performance.now() - last < kRest) && performance.now() - start < kLongest) {
+    await page.waitForTimeout(50);
+  }
+  page.off('request', begun).off('requestfinished', ended).off('requestfailed', ended);
 }
 
 async function openStudio(page, url, problem) {
