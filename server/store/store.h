@@ -176,8 +176,8 @@ class Store {
   /// long as this store.
   virtual NeighbourStore* neighbours() { return nullptr; }
 
-  /// Called when the service stops: a verb then ends with `unavailable` within 10 s when the database does
-  /// not answer. Before, it waits until the database answers or the connection is lost.
+  /// Bounds the time of every verb, for a service that stops: a verb returns `unavailable` after at most 10 s
+  /// when the database does not answer. Without this call a verb waits until the connection is lost.
   virtual void hurry() {}
 };
 

@@ -226,17 +226,21 @@ void Connection::fail(const Rows& failed) const {
               message == nullptr ? PQerrorMessage(handle_.get()) : message);
 }
 
-/// Waits for the next result of what was sent, which the caller owns; null after the last one. A server that
-/// answers nothing keeps its connection: one whose other processes were killed, or that stands still.
+/// Waits for the next result of what was sent, which the caller owns; null after the last one. The connection
+/// stays open, and no answer comes, where the server's host stands still, or where the server process waits
+/// for a lock that a killed process had.
 PGresult* Connection::next_result() {
   using SteadyClock = std::chrono::steady_clock;
   std::optional<SteadyClock::time_point> end;
   while (PQisBusy(handle_.get()) == 1) {
     std::array<pollfd, 2> waited{pollfd{PQsocket(handle_.get()), POLLIN, 0},
                                  pollfd{hurry_ == nullptr || end ? -1 : hurry_->descriptor(), POLLIN, 0}};
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end.value_or(SteadyClock::time_point()) -
-                                                                   SteadyClock::now());
-    const int ready = ::poll(waited.data(), waited.size(), end ? static_cast<int>(left.count()) : -1);
+    int longest = -1;  // without bound
+    if (end) {
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(*end - SteadyClock::now());
+      longest = std::max(0, static_cast<int>(left.count()));
+    }
+    const int ready = ::poll(waited.data(), waited.size(), longest);
     if (ready > 0 && waited[0].revents != 0 && PQconsumeInput(handle_.get()) != 1) {
       break;  // the connection is lost, which PQgetResult() tells
     }

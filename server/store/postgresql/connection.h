@@ -123,8 +123,8 @@ class Rows {
 class Connection {
  public:
   /// Connects. @param location a connection URI (postgresql://...)
-  /// @param hurry rung when the service stops: an answer that is not there 5 s later is waited for no longer,
-  /// and the connection is lost. Null: answers are waited for without bound. It outlives the connection.
+  /// @param hurry bell that is rung when the service stops, and outlives the connection: 5 s later a member
+  /// that still waits for an answer throws, and the connection is lost. Null: members wait without bound
   explicit Connection(const std::string& location, const PollBell* hurry = nullptr);
 
   /// Runs one statement.

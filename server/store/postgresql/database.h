@@ -48,8 +48,8 @@ class Pool {
   [[nodiscard]] std::unique_ptr<Connection> open() const {
     return std::make_unique<Connection>(location_, &hurry_);
   }
-  /// Ends each wait for an answer after 5 s from now on; a database that did not answer, or could not be
-  /// reached, is not tried again.
+  /// From now on no thread waits longer than 5 s for an answer of the database, not even one that waits
+  /// already; once the database did not answer, or could not be reached, no thread connects again.
   void hurry();
 
  private:
