@@ -1,4 +1,4 @@
-// A field for a number: what is typed stays until it is one.
+// The text field of a number. A text that is no number stays in the field, and the field says why.
 
 import { useState } from "preact/hooks";
 import { readNumber } from "../model/typed_number";

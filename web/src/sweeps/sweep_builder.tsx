@@ -6,6 +6,7 @@ import { service } from "../api/client";
 import { go } from "../app/router";
 import { formatNumber } from "../figures";
 import { parameterOf, type Slider } from "../model/sliders";
+import { pointerOf } from "../model/pointer";
 import { numberOf, readNumber } from "../model/typed_number";
 import { Trouble } from "../studio/trouble";
 
@@ -26,12 +27,12 @@ function rangeOf(sliders: readonly Slider[], index: number, count: number): Rang
 function outputsOf(request: RequestDocument): string[] {
   if (request.analysis.type === "buckling") return ["/buckling/load_factors/0"];
   if (request.analysis.type === "vibration") return ["/vibrations/0/frequencies/omega_squared/0"];
-  const monitors = (request.model.monitors ?? []).slice(0, 3).map(({ id }) => id.replace(/~/g, "~0").replace(/\//g, "~1"));
+  const monitors = (request.model.monitors ?? []).slice(0, 3).map(({ id }) => id);
   if (request.analysis.type === "static") {
     const last = (request.analysis.load_factors?.length ?? 1) - 1;
-    return monitors.map((id) => `/static/monitors/${id}/${last}`);
+    return monitors.map((id) => pointerOf(["static", "monitors", id, last]));
   }
-  const places = monitors.map((id) => `/critical_points/0/monitors/${id}`);
+  const places = monitors.map((id) => pointerOf(["critical_points", 0, "monitors", id]));
   const softest = ["/summary/softest/load_factor", "/summary/softest/stiffness_ratio"];
   return ["/summary/critical_load_factor", "/summary/critical_type", "/summary/error_estimate", ...softest, ...places];
 }
@@ -41,10 +42,12 @@ function parameters(sliders: readonly Slider[], ranges: readonly Range[]): Sweep
   for (const range of ranges) {
     const slider = sliders[range.slider];
     if (!slider) return "Choose a slider.";
+    const numbers: number[] = [];
     for (const typed of [range.from, range.to, range.count].map(readNumber)) {
       if ("trouble" in typed) return `${slider.name}: ${typed.trouble}`;
+      numbers.push(typed.value);
     }
-    const [from, to, count] = [range.from, range.to, range.count].map((text) => numberOf(text) ?? 0) as [number, number, number];
+    const [from = 0, to = 0, count = 0] = numbers;
     if (from === to || !Number.isInteger(count) || count < 2) return `${slider.name}: from and to differ, count is 2 or more.`;
     made.push(parameterOf(slider, slider.unit === "" ? slider.name : `${slider.name} (${slider.unit})`, from, to, count));
   }

@@ -118,10 +118,11 @@ function NearlyUnstable({ result }: { result: Result }) {
   return warningOf(result, "nearly_unstable") === undefined ? null : <Badge good={false}>nearly unstable</Badge>;
 }
 
-/** The load factor to use: that of the softest point where the structure is nearly unstable there; null elsewhere. */
+/** The load factor to use: that of the softest point where the structure is nearly unstable there; null elsewhere, and where the
+ *  analysis has no answer. */
 function loadToUse(result: Result): number | null {
   const { softest } = result.summary;
-  return softest && warningOf(result, "nearly_unstable") !== undefined ? softest.load_factor : null;
+  return softest && !troubleOf(result) && warningOf(result, "nearly_unstable") !== undefined ? softest.load_factor : null;
 }
 
 function ratioText(result: Result): string {
@@ -141,19 +142,22 @@ function Headline({ run, stale }: { run: Run; stale: boolean }) {
   const vibration = result.failure ? undefined : result.vibrations?.[0];
   const use = loadToUse(result);
   if (vibration) return <LowestFrequency vibration={vibration} earlier={earlier} />;
-  if (load === null) return <WithoutLoad run={run} earlier={earlier} />;
   const { good, word } = confirmationOf(result);
   if (use !== null) {
+    const beyond = load === null ? "no loss of stability on this path"
+      : `${kindOf(type ?? "")} at ${formatNumber(load, 5)} (${word}), ${errorText(result)}`;
     return (
       <>
         <p class="headline"><strong>{formatNumber(use, 5)}</strong>{earlier}<NearlyUnstable result={result} /></p>
-        <p class="hint">load factor to use{ratioText(result)}; {kindOf(type ?? "")} at {formatNumber(load, 5)} ({word}), {errorText(result)}</p>
+        <p class="hint">load factor to use{ratioText(result)}; {beyond}</p>
       </>
     );
   }
+  if (load === null) return <WithoutLoad run={run} earlier={earlier} />;
   return (
     <>
-      <p class="headline"><strong>{formatNumber(load, 5)}</strong>{earlier ?? <Badge good={good}>{word}</Badge>}</p>
+      <p class="headline"><strong>{formatNumber(load, 5)}</strong>{earlier ?? <Badge good={good}>{word}</Badge>}
+        <NearlyUnstable result={result} /></p>
       <p class="hint">{kindOf(type ?? "")}, {errorText(result)}</p>
     </>
   );
@@ -245,7 +249,7 @@ function rowsOf(run: Run): [string, string][] {
     if (value !== undefined) rows.push([`${id} ${there}`, readingText(run.request.model, component, value)]);
   }
   if (!point && result.summary.critical_load_factor === null) {
-    rows.push(...(lastReadings(run)?.readings ?? []).slice(troubleOf(result) ? 0 : 1).map(({ id, text }): [string, string] => [id, text]));
+    rows.push(...(lastReadings(run)?.readings ?? []).slice(troubleOf(result) || use !== null ? 0 : 1).map(({ id, text }): [string, string] => [id, text]));
   }
   if (point && result.critical_points.length > 0) rows.push(["Also on this path", othersText(result)]);
   rows.push(["Mesh", meshText(result)], ["Effort", effortText(run)]);

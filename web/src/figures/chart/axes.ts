@@ -106,7 +106,7 @@ function written(scale: Scale, names: readonly string[] | undefined, values: rea
   return names.flatMap((text, value) => (value % every === 0 ? [{ value, text }] : []));
 }
 
-const kBetween = 6;  // pixels between texts below an axis
+export const kBetweenTexts = 6;  // pixels between texts below an axis
 const kLineHeight = 14;
 
 /** Room at the left of a plot for the texts of its upright axis and its name. */
@@ -129,7 +129,7 @@ export function frameShapes(frame: Frame, size: Size): Shape {
     const half = textWidth(text) / 2;
     shapes.push(line(value === 0 && !x.log && !frame.xNames ? "grid zero" : "grid", { x: px, y: y.start }, { x: px, y: y.end }));
     if (px - half < free) continue;
-    free = px + half + kBetween;
+    free = px + half + kBetweenTexts;
     shapes.push(label("tick", { x: px, y: y.start + 16 }, "middle", text));
   }
   free = Infinity;

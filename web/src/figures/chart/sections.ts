@@ -7,7 +7,7 @@ import { at, interpolate, last } from "../geometry";
 import { Occupancy, placeLabel, textWidth } from "../labels";
 import { formatNumber, formatWithUnit, unitOf, type Quantity, type Units } from "../numbers";
 import { coordinate, figure, group, label, line, pathData, shape, type Anchor, type Pixel, type Shape, type Size } from "../shape";
-import { makeScale, place, ticks, valueAt, type Scale } from "./axes";
+import { kBetweenTexts, makeScale, place, ticks, valueAt, type Scale } from "./axes";
 import { thinned } from "./thin";
 
 type Schemas = components["schemas"];
@@ -130,7 +130,6 @@ const kLeastWidth = 84;
 const kRowGap = 10;
 const kGap = 16;
 const kSide = 4;
-const kBetweenTicks = 6;
 
 /** Columns of panels: as many as leave each wide enough to be read. */
 function columnsOf(count: number, size: Size): number {
@@ -257,7 +256,7 @@ function lengthTicks(chart: SectionsChart, panel: SectionPanel, units: Units | u
   const last = all[all.length - 1];
   let end = -Infinity;
   return all.map((tick) => {
-    const fits = tick === last || (tick.from >= end + kBetweenTicks && tick.to + kBetweenTicks <= (last?.from ?? Infinity));
+    const fits = tick === last || (tick.from >= end + kBetweenTexts && tick.to + kBetweenTexts <= (last?.from ?? Infinity));
     if (fits) end = tick.to;
     return group("section-tick", line("axis", { x: tick.x, y: footTop(panel) }, { x: tick.x, y: footTop(panel) + 3 }),
                  ...(fits ? [label("tick", { x: tick.x, y: footTop(panel) + 15 }, tick.anchor, tick.text)] : []));
