@@ -49,8 +49,8 @@ def count(program, jobs):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         log = folder / "log"
-        # The loader of Linux is the program that valgrind runs; a service that it has started begins its runners by the service's
-        # own name, so that valgrind follows them. /proc/self/exe would be valgrind.
+        # Valgrind runs the loader of Linux, and the loader the service. A service that was started so begins its runners by its own
+        # name (own_executable()), and valgrind follows them; else it begins them by /proc/self/exe, which valgrind does not follow.
         command = ["valgrind", "--tool=callgrind", "--trace-children=yes", f"--callgrind-out-file={folder}/out.%p",
                    "/lib64/ld-linux-x86-64.so.2", program, "serve", "--listen", "127.0.0.1:0", "--store", f"{folder}/store.db",
                    "--no-web", "--workers", "1"]
@@ -66,6 +66,8 @@ def count(program, jobs):
             total = re.search(r"^(?:summary|totals): (\d+)", text, re.M)
             if named and total:
                 counted["service" if " serve " in named.group(1) else "runner"] += int(total.group(1))
+        if 0 in counted.values():
+            raise SystemExit(f"callgrind counted no instructions of a process: {counted}; is callgrind_control installed?")
         return counted
 
 

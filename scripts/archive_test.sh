@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tries the archive of scripts/archive.sh in a root that holds nothing but a shell, as root: solves every example and what
-# tests/clients has, compares with another build of the program, and runs the service with a job.
+# Tries the archive of scripts/archive.sh in a root that holds nothing but a shell, as root: solves every example, the
+# requests and the sweep of tests/clients, compares with another build of the program, and runs the service with a job.
 #   scripts/archive_test.sh ARCHIVE [PROGRAM]     PROGRAM: build/release/snapthrough
 # BASE=FOLDER tries it in a copy of that root instead, of whatever distribution.
 set -euo pipefail

@@ -21,7 +21,7 @@ import time
 from cluster import Client, Cluster, Load, Network, OWNERS, PATIENCE, UNENDED, sweep, wait_for
 
 POINTS = 600
-STOPS_WITHIN = 30  # s; docs/service.md says 10 s for a database that does not answer, beside the stages of a stop
+STOPS_WITHIN = 30  # s; docs/service.md: 5 s for a database that does not answer, and the stages of a stop
 
 
 class Trial:
@@ -282,8 +282,9 @@ def cut_network(trial):
 
 
 FAULTS = {fault.__name__: fault for fault in (kill_worker, kill_two_workers, kill_front, kill_database, stop_database_for_5_s,
-                                              stop_hosts_while_database_is_silent, pause_worker, hold_snapshot, add_worker_and_end_one, fail_over,
-                                              fail_over_without_sync, lose_synchronous_replica, cut_network)}
+                                              stop_hosts_while_database_is_silent, pause_worker, hold_snapshot,
+                                              add_worker_and_end_one, fail_over, fail_over_without_sync,
+                                              lose_synchronous_replica, cut_network)}
 SYNCED = {"replica": True, "synced": True}
 SURROUNDINGS = {"fail_over": SYNCED, "lose_synchronous_replica": SYNCED, "fail_over_without_sync": {"replica": True},
                 "cut_network": {"apart": True}}

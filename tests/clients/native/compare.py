@@ -20,11 +20,12 @@ NUMBER = re.compile(r"-?\d+\.\d+(?:e[-+]?\d+)?")
 STATUS = {"done": 0, "wrong": 2, "failed": 3, "cancelled": 4}  # of the C interface
 
 
-def native(executable, command, file):
-    """(document, errors, processor time in s) of a command of the executable."""
+def run(*command):
+    """(exit status, document or {}, errors, processor time in s) of a command."""
     begin = os.times().children_user
-    done = subprocess.run([executable, *command, str(file)], capture_output=True, text=True, check=False)
-    return (json.loads(done.stdout) if done.stdout.startswith("{") else {}), done.stderr, os.times().children_user - begin
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    document = json.loads(done.stdout) if done.stdout.startswith("{") else {}
+    return done.returncode, document, done.stderr, os.times().children_user - begin
 
 
 def loads(value, place=""):
@@ -56,6 +57,12 @@ def differences(found, wanted):
     return wrong + ([] if same_words(*words) else [f"words: {words}"]), largest
 
 
+def different_rows(rows, wanted):
+    """What differs between the rows of two tables of a sweep; no rows are wrong, too."""
+    wrong = [f"row {i}: {a}, not {b}" for i, (a, b) in enumerate(zip(rows, wanted)) if not same_words(json.dumps(a), json.dumps(b))]
+    return wrong if rows and len(rows) == len(wanted) else [*wrong, f"{len(rows)} rows, not {len(wanted)}"]
+
+
 def main():
     executable, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     told = {name: (int(status), float(seconds)) for name, status, seconds in map(str.split, sys.stdin.read().splitlines())}
@@ -69,17 +76,15 @@ def main():
         found = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
         if wanted["outcome"] == "wrong":
             text = "".join(f"{one['pointer']}: {one['detail']} [{one['code']}]\n" for one in found["errors"])
-            if text != native(executable, ["check"], REQUESTS / f"{name}.json")[1]:
+            if text != run(executable, "check", REQUESTS / f"{name}.json")[2]:
                 wrong.append(f"{name}: {text}")
         elif wanted["outcome"] != "cancelled":
-            differing, difference = differences(found, native(executable, ["solve"], REQUESTS / f"{name}.json")[0])
+            differing, difference = differences(found, run(executable, "solve", REQUESTS / f"{name}.json")[1])
             wrong += [f"{name}: {one}" for one in differing]
             largest = max(largest, difference)
-    table, _, seconds = native(executable, ["sweep", "--threads", "1"], HERE.parent / "sweep_500.json")
+    _, table, _, seconds = run(executable, "sweep", "--threads", "1", HERE.parent / "sweep_500.json")
     rows = json.loads((folder / "sweep_500.json").read_text(encoding="utf-8"))["rows"]
-    wrong += [f"row {i}: {a}, not {b}" for i, (a, b) in enumerate(zip(rows, table["rows"])) if not same_words(json.dumps(a), json.dumps(b))]
-    if len(rows) != len(table["rows"]) or not rows:
-        wrong.append(f"{len(rows)} rows, not {len(table['rows'])}")
+    wrong += different_rows(rows, table["rows"])
     print("\n".join(wrong) or f"{len(expected)} requests and {len(rows)} rows: as those of {executable}; largest difference of a load {largest:.1e}")
     print(f"sweep: {told['sweep_500.json'][1]:.2f} s, the executable {seconds:.2f} s, ratio {told['sweep_500.json'][1] / seconds:.2f}")
     return 1 if wrong else 0

@@ -8,26 +8,16 @@ standard error, loads within 1e-10; exit status 1 names what differs. The reques
 cancels after a number of steps. The last line has the ratio of the processor times of the sweep.
 """
 import json
-import os
-import subprocess
 import sys
 
-from compare import HERE, differences, same_words
-
-
-def run(command):
-    """(exit status, document or {}, errors, processor time in s)."""
-    begin = os.times().children_user
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    document = json.loads(done.stdout) if done.stdout.startswith("{") else {}
-    return done.returncode, document, done.stderr, os.times().children_user - begin
+from compare import HERE, different_rows, differences, run, same_words
 
 
 def main():
     executable, folder, other = sys.argv[1], sys.argv[2], sys.argv[3:]
 
     def both(command, file):
-        return run([executable, *command, str(HERE.parent / file)]), run([*other, *command, f"{folder}/{file}"])
+        return run(executable, *command, HERE.parent / file), run(*other, *command, f"{folder}/{file}")
 
     wrong, largest, count = [], 0.0, 0
     for name in json.loads((HERE.parent / "expected.json").read_text(encoding="utf-8")):
@@ -42,10 +32,8 @@ def main():
             wrong += [f"{name}: {one}" for one in differing]
             largest = max(largest, difference)
     (_, wanted, _, base), (_, found, _, seconds) = both(["sweep", "--threads", "1"], "sweep_500.json")
-    rows, table = found.get("rows", []), wanted["rows"]
-    wrong += [f"row {i}: {a}, not {b}" for i, (a, b) in enumerate(zip(rows, table)) if not same_words(json.dumps(a), json.dumps(b))]
-    if len(rows) != len(table):
-        wrong.append(f"{len(rows)} rows, not {len(table)}")
+    rows = found.get("rows", [])
+    wrong += different_rows(rows, wanted["rows"])
     print("\n".join(wrong) or f"{count} requests and {len(rows)} rows: as those of {executable}; largest difference of a load {largest:.1e}")
     print(f"sweep: {seconds:.2f} s, the executable {base:.2f} s, ratio {seconds / base:.2f}")
     return 1 if wrong else 0

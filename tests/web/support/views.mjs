@@ -25,7 +25,10 @@ async function still(page) {
   await settled(page);
   const start = performance.now();
   last = start;
-  while ((open.size > 0 || performance.now() - last < kRest) && performance.now() - start < kLongest) {
+  while (open.size > 0 || performance.now() - last < kRest) {
+    if (performance.now() - start > kLongest) {
+      throw new Error(`the page still waits for ${open.size} answers`);
+    }
     await page.waitForTimeout(50);
   }
   page.off('request', begun).off('requestfinished', ended).off('requestfailed', ended);
