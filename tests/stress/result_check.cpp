@@ -91,7 +91,7 @@ class Check {
 
  private:
   void finite();
-  void branch(const Branch& branch, std::size_t first);
+  void branch(const Branch& branch);
   void changes(const Branch& branch);
   /// Negative eigenvalues that a state may have.
   struct CountRange {
@@ -384,13 +384,17 @@ void Check::state(std::size_t index, std::optional<CountRange> negative) {
   before_ = std::move(at);
 }
 
-void Check::branch(const Branch& branch, std::size_t first) {
+/// States are those of rows, in their order; the first and the last row have one.
+void Check::branch(const Branch& branch) {
   constexpr double kSameLoad = 1e-3;
-  const std::vector<int> states = states_of_points(result_);
   before_.reset();
-  for (std::size_t i = 0; i < branch.load_factor.size() && first + i < states.size(); ++i) {
-    const auto index = static_cast<std::size_t>(states[first + i]);
-    if (result_.states[index].load_factor != branch.load_factor[i]) {
+  std::size_t i = 0;
+  std::optional<std::size_t> row_before;
+  for (const int state_index : states_of_points(result_)) {
+    const auto index = static_cast<std::size_t>(state_index);
+    if (result_.states[index].branch != branch.id) continue;
+    while (i < branch.load_factor.size() && branch.load_factor[i] != result_.states[index].load_factor) ++i;
+    if (i == branch.load_factor.size() || (!row_before && i > 0)) {
       fail("states: a state is not that of its point");
       return;
     }
@@ -408,10 +412,13 @@ void Check::branch(const Branch& branch, std::size_t first) {
       counts.most = std::max({counts.most, c.negative_before, c.negative_after});
     }
     state(index, counts);
-    if (!previous || !before_ || i == 0) continue;
-    const double step = branch.arc_length[i] - branch.arc_length[i - 1];
-    out_.stretch = std::max(out_.stretch, (distance(*previous, *before_) - 1e-12) / step);
+    if (previous && before_ && row_before) {
+      const double step = branch.arc_length[i] - branch.arc_length[*row_before];
+      out_.stretch = std::max(out_.stretch, (distance(*previous, *before_) - 1e-12) / step);
+    }
+    row_before = i++;
   }
+  if (!result_.failure && i != branch.load_factor.size()) fail("states: the last point has none");
   changes(branch);
 }
 
@@ -419,11 +426,7 @@ ResultCheck Check::run() {
   finite();
   if (!out_.failures.empty()) return out_;
   reactions();
-  std::size_t first = 0;
-  for (const Branch& b : result_.branches) {
-    branch(b, first);
-    first += b.load_factor.size();
-  }
+  for (const Branch& b : result_.branches) branch(b);
   for (const CriticalPoint& c : result_.critical_points)
     if (c.state) state(static_cast<std::size_t>(*c.state), std::nullopt);
   if (result_.branches.empty()) {
@@ -434,9 +437,6 @@ ResultCheck Check::run() {
       state(static_cast<std::size_t>(states[i]), stable ? std::optional(CountRange{}) : std::nullopt);
     }
   }
-  if (!result_.branches.empty() && !result_.failure && first != states_of_points(result_).size())
-    fail("states: " + std::to_string(first) + " points, " + std::to_string(states_of_points(result_).size()) +
-         " states");
   constexpr double kApart = 1.5;
   if (out_.stretch > kApart) fail("contiguity: neighbours are " + text(out_.stretch) + " arc lengths apart");
   return out_;
