@@ -136,7 +136,11 @@ inline constexpr auto kFields<Vibration> =
     std::tuple{field("load_factor", &Vibration::load_factor), field("frequencies", &Vibration::frequencies),
                field("error_estimates", &Vibration::error_estimates), field("modes", &Vibration::modes)};
 
-/// The lists have one value a point.
+template <>
+inline constexpr auto kFields<PathRates> = std::tuple{field<kSent>("load_factor", &PathRates::load_factor),
+                                                      field<kSent>("monitors", &PathRates::monitors)};
+
+/// The lists have one value a row, but for `computed`.
 template <>
 inline constexpr auto kFields<Branch> =
     std::tuple{field<kSent>("id", &Branch::id),
@@ -148,6 +152,8 @@ inline constexpr auto kFields<Branch> =
                field<kSent>("stiffness_ratio", &Branch::stiffness_ratio),
                field<kSent>("contact_fraction", &Branch::contact_fraction),
                field<kStored | kIfAny | kNoColumn>("frequencies", &Branch::frequencies),
+               field<kStored | kIfAny | kNoColumn>("computed", &Branch::computed),
+               field<kStored | kIfAny | kNoColumn>("rates", &Branch::rates),
                field<kSent>("termination", &Branch::termination)};
 
 template <>
@@ -155,19 +161,39 @@ inline constexpr auto kFields<Resultant> =
     std::tuple{field("fx", &Resultant::fx), field("fy", &Resultant::fy), field("moment", &Resultant::moment)};
 
 template <>
-inline constexpr auto kFields<MemberState> =
-    std::tuple{field<kKey>("id", &MemberState::id),
-               field("s", &MemberState::s),
-               field("x0", &MemberState::x0),
-               field("y0", &MemberState::y0),
-               field("x", &MemberState::x),
-               field("y", &MemberState::y),
-               field("u", &MemberState::u),
-               field("v", &MemberState::v),
-               field("rotation", &MemberState::rotation),
-               field("axial_force", &MemberState::axial_force),
-               field("shear_force", &MemberState::shear_force),
-               field("bending_moment", &MemberState::bending_moment)};
+inline constexpr auto kFields<Peak> = std::tuple{field("value", &Peak::value), field("s", &Peak::s)};
+
+template <>
+inline constexpr auto kFields<PeakRange> =
+    std::tuple{field("min", &PeakRange::min), field("max", &PeakRange::max)};
+
+/// Documents have the largest displacement as an object with `max` alone.
+struct LargestPeak {
+  Peak max;
+};
+template <>
+inline constexpr auto kFields<LargestPeak> = std::tuple{field("max", &LargestPeak::max)};
+
+template <>
+inline constexpr auto kFields<MemberPeaks> = std::tuple{
+    field("axial_force", &MemberPeaks::axial_force), field("shear_force", &MemberPeaks::shear_force),
+    field("bending_moment", &MemberPeaks::bending_moment), internal(&MemberPeaks::displacement),
+    field("displacement", [](const MemberPeaks& one) { return LargestPeak{one.displacement}; })};
+
+template <>
+inline constexpr auto kFields<MemberState> = std::tuple{field<kKey>("id", &MemberState::id),
+                                                        field("s", &MemberState::s),
+                                                        field("x0", &MemberState::x0),
+                                                        field("y0", &MemberState::y0),
+                                                        field("x", &MemberState::x),
+                                                        field("y", &MemberState::y),
+                                                        field("u", &MemberState::u),
+                                                        field("v", &MemberState::v),
+                                                        field("rotation", &MemberState::rotation),
+                                                        field("axial_force", &MemberState::axial_force),
+                                                        field("shear_force", &MemberState::shear_force),
+                                                        field("bending_moment", &MemberState::bending_moment),
+                                                        field("extremes", &MemberState::extremes)};
 
 template <>
 inline constexpr auto kFields<SupportState> =
@@ -184,7 +210,8 @@ template <>
 inline constexpr auto kFields<FoundationState> = std::tuple{
     field<kKey>("id", &FoundationState::id),       field("s", &FoundationState::s),
     field("reaction", &FoundationState::reaction), field("displacement", &FoundationState::displacement),
-    field("contact", &FoundationState::contact),   field("resultant", &FoundationState::resultant)};
+    field("contact", &FoundationState::contact),   field("resultant", &FoundationState::resultant),
+    field("extremes", &FoundationState::extremes)};
 
 template <>
 inline constexpr auto kFields<State> = std::tuple{field("branch", &State::branch),

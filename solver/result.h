@@ -156,6 +156,14 @@ struct Frequencies {
   std::vector<double> imaginary = {};
 };
 
+/// Rates along a branch by its arc length, one for each row: with the values at both ends of two neighbouring
+/// rows they give the cubic that is the path between both.
+struct PathRates {
+  std::vector<double> load_factor;
+  std::vector<NamedSeries> monitors;
+};
+
+/// The lists have one value for each row, but for `computed`.
 struct Branch {
   int id = 0;
   std::optional<int> parent;
@@ -163,12 +171,17 @@ struct Branch {
   std::vector<double> arc_length;  ///< dimensionless, from 0, increasing
   std::vector<NamedSeries> monitors;
   std::vector<int> negative_eigenvalues;
-  /// Least stiffness over that of the unloaded structure at each point; empty: unknown.
+  /// Least stiffness over that of the unloaded structure at each point; empty: unknown, as between computed
+  /// points.
   std::vector<std::optional<double>> stiffness_ratio;
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
-  /// One for each point, if requested; empty: a support touches there without pressure.
+  /// If requested; empty: a support touches there without pressure, or the row is not computed.
   std::vector<std::optional<Frequencies>> frequencies = {};
-  std::string termination = {};  ///< code as in Summary
+  /// Indices of the rows at which an equilibrium was solved; the others are points of the cubics between
+  /// them.
+  std::vector<int> computed = {};
+  std::optional<PathRates> rates = {};  ///< empty in results of earlier versions
+  std::string termination = {};         ///< code as in Summary
 };
 
 /// Force, and moment about the axes' origin, at the deformed positions (linear geometry: undeformed).
@@ -178,11 +191,28 @@ struct Resultant {
   double moment = 0.0;
 };
 
+/// Value at a place of a member.
+struct Peak {
+  double value = 0.0;
+  double s = 0.0;
+};
+struct PeakRange {
+  Peak min;
+  Peak max;
+};
+/// Extreme values along a whole member in one state, between the places of its lists too.
+struct MemberPeaks {
+  PeakRange axial_force;
+  PeakRange shear_force;
+  PeakRange bending_moment;
+  Peak displacement;  ///< largest hypot(u, v)
+};
 /// Values at equally spaced positions of a member: x0, y0 undeformed (with imperfections), x, y deformed; u,
 /// v displacements in global axes.
 struct MemberState {
   std::string id;
   std::vector<double> s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment;
+  MemberPeaks extremes = {};
 };
 /// Reaction of a support on the structure in global axes; moment about its node.
 struct SupportState {
@@ -204,6 +234,7 @@ struct FoundationState {
   std::vector<double> displacement;            ///< displacement into the medium
   std::vector<std::array<double, 2>> contact;  ///< intervals [s0, s1] in contact, in the member's s
   Resultant resultant;                         ///< force of the medium on the structure, with the shear layer
+  PeakRange extremes = {};                     ///< extremes of the reaction along the whole range
 };
 /// Equilibrium state: reactions and the resultants of springs, foundations and loads sum to zero.
 struct State {

@@ -15,6 +15,19 @@ struct Axes {
   std::vector<Shape> moved;
 };
 
+/// Returns whether a member that carries a force of one sense alone carries none in the drawn state.
+bool is_slack(const Scene& scene, const std::string& id) {
+  if (scene.input.state == nullptr || scene.input.model == nullptr) {
+    return false;
+  }
+  const std::vector<ModelMember>& members = scene.input.model->members;
+  const auto member =
+      std::find_if(members.begin(), members.end(), [&](const ModelMember& one) { return one.id == id; });
+  const auto state = scene.input.state->members.find(id);
+  return member != members.end() && member->one_sided && state != scene.input.state->members.end() &&
+         state->second.axial_force.front() == 0;
+}
+
 Axes axes_of(const Scene& scene, const View& view, Occupancy& taken) {
   Axes axes;
   const bool only_mode = scene.input.mode != nullptr;
@@ -33,7 +46,10 @@ Axes axes_of(const Scene& scene, const View& view, Occupancy& taken) {
       taken.add_line(before, 8);
       axes.still.push_back(path("undeformed", before));
     }
-    axes.moved.push_back(path(only_mode ? "undeformed" : "member", here));
+    axes.moved.push_back(path(only_mode                    ? "undeformed"
+                              : is_slack(scene, member.id) ? "member slack"
+                                                           : "member",
+                              here));
   }
   return axes;
 }

@@ -27,6 +27,7 @@ line, path { stroke-linecap: round; stroke-linejoin: round; }
 .ground-surface { stroke: $groundline; stroke-width: 1.2; }
 .undeformed { stroke: $muted; stroke-width: 1.2; }
 .member { stroke: $ink; stroke-width: 4; }
+.slack { stroke: $muted; stroke-width: 1.6; stroke-dasharray: 6 4; }
 .contact { stroke: $contact; stroke-width: 4; }
 .reaction { fill: $contact; fill-opacity: .22; }
 .reaction-line { stroke: $contact; stroke-width: 1.2; }

@@ -73,6 +73,7 @@ ModelMember read_member(const Field& field, const Model& model) {
   member.axis = member_axis(field, field.find("curve"), from, to);
   member.hinge_at_start = has_hinge(field, "start");
   member.hinge_at_end = has_hinge(field, "end");
+  member.one_sided = is_one_sided(field);
   return member;
 }
 

@@ -29,6 +29,7 @@ struct ModelMember {
   Axis axis;
   bool hinge_at_start = false;
   bool hinge_at_end = false;
+  bool one_sided = false;  ///< carries tension alone or compression alone
 };
 
 struct ModelSupport {

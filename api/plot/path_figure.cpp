@@ -4,8 +4,11 @@
 
 #include "api/plot/axes.h"
 #include "api/plot/figures.h"
+#include "api/plot/geometry.h"
 #include "api/plot/labels.h"
 #include "api/plot/result.h"
+#include "solver/numeric/bracket.h"
+#include "solver/numeric/cubic.h"
 #include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {
@@ -17,6 +20,8 @@ struct Vertex {
   double y = 0;
   double arc = 0;
   std::optional<double> negative;  ///< negative eigenvalues; nullopt: critical point; kNone: not counted
+  std::optional<Point> rate = {};  ///< rate of x and y by arc length; nullopt: straight lines
+  bool computed = true;            ///< an equilibrium was solved there
 };
 
 enum class Stability { stable, unstable, not_counted };
@@ -41,17 +46,36 @@ struct PathData {
   bool is_static = false;
 };
 
-/// Returns the quantity at each row of a branch; empty when the branch lacks the monitor.
-std::vector<double> values_of(const Branch& branch, const Abscissa& quantity) {
-  if (quantity.monitor.empty()) {
-    return branch.arc_length;
-  }
-  const auto found = branch.monitors.find(quantity.monitor);
-  std::vector<double> values = found == branch.monitors.end() ? std::vector<double>() : found->second;
+/// Returns the values of a monitor on the axis; empty when there is no such monitor.
+std::vector<double> values_of(const Monitors& monitors, const Abscissa& quantity) {
+  const auto found = monitors.find(quantity.monitor);
+  std::vector<double> values = found == monitors.end() ? std::vector<double>() : found->second;
   for (double& value : values) {
     value *= quantity.sign;
   }
   return values;
+}
+
+/// Returns the quantity at each row of a branch; empty when the branch lacks the monitor.
+std::vector<double> values_of(const Branch& branch, const Abscissa& quantity) {
+  return quantity.monitor.empty() ? branch.arc_length : values_of(branch.monitors, quantity);
+}
+
+/// Returns the rates of both axes by arc length at each row of a branch; empty where they are not known.
+std::vector<Point> rates_of(const Branch& branch, const Abscissa& quantity) {
+  std::vector<Point> rates;
+  if (!branch.rates) {
+    return rates;
+  }
+  const std::vector<double> along = values_of(branch.rates->monitors, quantity);
+  for (std::size_t i = 0; i < branch.load_factor.size(); ++i) {
+    if (quantity.monitor.empty()) {
+      rates.push_back({1, branch.rates->load_factor[i]});
+    } else if (i < along.size()) {
+      rates.push_back({along[i], branch.rates->load_factor[i]});
+    }
+  }
+  return rates;
 }
 
 double value_of(const CriticalPoint& point, const Abscissa& quantity) {
@@ -160,6 +184,10 @@ std::vector<Vertex> vertices_of(const PathData& path, std::size_t index) {
   std::vector<Vertex> points;
   for (const CriticalPoint& point : path.points) {
     WorkLimit::poll();
+    // a branch of cubics has rows at its critical points; a broken bifurcation lies beside it
+    if (branch.rates && point.mark == Mark::broken_bifurcation) {
+      continue;
+    }
     if (!path.is_static && point.branch == index && std::isfinite(value_of(point, path.x))) {
       points.push_back({value_of(point, path.x), point.load_factor, point.arc_length, std::nullopt});
     }
@@ -167,10 +195,16 @@ std::vector<Vertex> vertices_of(const PathData& path, std::size_t index) {
   std::stable_sort(points.begin(), points.end(),
                    [](const Vertex& a, const Vertex& b) { return a.arc < b.arc; });
   const double near = 1e-9 * branch.arc_length.back();  // smaller differences of arc length are rounding
+  const std::vector<Point> rates = rates_of(branch, path.x);
   std::vector<Vertex> merged;
   std::size_t next = 0;
   for (std::size_t i = 0; i < xs.size(); ++i) {
-    const Vertex row{xs[i], branch.load_factor[i], branch.arc_length[i], branch.negative_eigenvalues[i]};
+    const Vertex row{xs[i],
+                     branch.load_factor[i],
+                     branch.arc_length[i],
+                     branch.negative_eigenvalues[i],
+                     i < rates.size() ? std::optional(rates[i]) : std::nullopt,
+                     std::binary_search(branch.computed.begin(), branch.computed.end(), i)};
     for (; next < points.size() && points[next].arc < row.arc - near; ++next) {
       if (!merged.empty() && merged.back().arc < points[next].arc - near) {
         merged.push_back(points[next]);
@@ -248,18 +282,44 @@ const char* looks_of(Stability stability) {
   return "";
 }
 
+/// Returns the point of a curve at a fraction of the arc length between two vertices.
+Point between(const Vertex& a, const Vertex& b, double fraction) {
+  if (!a.rate || !b.rate) {
+    return {a.x + fraction * (b.x - a.x), a.y + fraction * (b.y - a.y)};
+  }
+  const double length = b.arc - a.arc;
+  const CubicWeights h(fraction * length, length);
+  return {h.a * a.x + h.da * a.rate->x + h.b * b.x + h.db * b.rate->x,
+          h.a * a.y + h.da * a.rate->y + h.b * b.y + h.db * b.rate->y};
+}
+
+/// Returns the points of a curve from one vertex to another one: the vertices, and points of the cubics
+/// between those with rates.
+std::vector<Pixel> points_of(const Curve& curve, const Frame& frame, std::size_t first, std::size_t last) {
+  constexpr int kParts = 16;  // lines for a cubic; thinned_points() takes away what nobody sees
+  std::vector<Pixel> points{place(frame, curve.vertices[first].x, curve.vertices[first].y)};
+  for (std::size_t i = first; i < last; ++i) {
+    const Vertex& a = curve.vertices[i];
+    const Vertex& b = curve.vertices[i + 1];
+    WorkLimit::poll();
+    for (int k = 1; a.rate && b.rate && b.arc > a.arc && k < kParts; ++k) {
+      const Point at = between(a, b, static_cast<double>(k) / kParts);
+      points.push_back(place(frame, at.x, at.y));
+    }
+    points.push_back(place(frame, b.x, b.y));
+  }
+  return points;
+}
+
 /// Draws each run of pieces with equal stability as one line; adjacent lines share a vertex.
 void draw_curve(const Curve& curve, const Frame& frame, Occupancy& taken, std::vector<Shape>& shapes) {
-  std::vector<Pixel> all;
-  for (const Vertex& vertex : curve.vertices) {
-    all.push_back(place(frame, vertex.x, vertex.y));
-  }
+  constexpr double kUnseen = 0.08;  // pixels; a bend of the line that twice as many pixels do not show either
   std::size_t begin = 0;
   for (std::size_t i = 1; i <= curve.pieces.size(); ++i) {
     if (i < curve.pieces.size() && curve.pieces[i] == curve.pieces[begin]) {
       continue;
     }
-    const std::vector<Pixel> points = thinned_points(std::span(all).subspan(begin, i - begin + 1));
+    const std::vector<Pixel> points = thinned_points(points_of(curve, frame, begin, i), kUnseen);
     taken.add_line(points, 7);
     shapes.push_back(plot::path(
         std::string(curve.branch == 0 ? "path " : "path branch ") + looks_of(curve.pieces[begin]), points));
@@ -288,14 +348,16 @@ std::optional<Softest> read_softest(const Field& result) {
   return found.ratio > 0 ? std::optional(found) : std::nullopt;  // ratio 0: a critical point
 }
 
-/// Returns the first point of a curve at a load factor, by linear interpolation; nullopt if there is none.
+/// Returns the first point of a curve at a load factor; nullopt if there is none.
 std::optional<Pixel> first_at_load(const Curve& curve, const Frame& frame, double load) {
   for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
     const Vertex& a = curve.vertices[i - 1];
     const Vertex& b = curve.vertices[i];
     if ((a.y <= load && load <= b.y) || (b.y <= load && load <= a.y)) {
-      const double share = a.y == b.y ? 0 : (load - a.y) / (b.y - a.y);
-      return place(frame, a.x + share * (b.x - a.x), load);
+      const double share = a.y == load ? 0 : bisect(0.0, 1.0, 1e-9, [&](double fraction) {
+        return (between(a, b, fraction).y < load) != (a.y < load);
+      });
+      return place(frame, between(a, b, share).x, load);
     }
   }
   return std::nullopt;
@@ -349,34 +411,46 @@ void draw_marks(const std::vector<PlacedMark>& marks, Occupancy& taken, std::vec
   shapes.push_back(group("mark-labels", std::move(labels)));
 }
 
-void draw_events(const PathData& path, const Frame& frame, std::vector<Shape>& shapes) {
+/// Returns the abscissa of a curve at an arc length.
+double abscissa_at(const Curve& curve, double arc) {
+  const auto beyond = std::find_if(curve.vertices.begin(), curve.vertices.end(),
+                                   [arc](const Vertex& vertex) { return vertex.arc > arc; });
+  if (beyond == curve.vertices.begin()) {
+    return curve.vertices.front().x;
+  }
+  if (beyond == curve.vertices.end()) {
+    return curve.vertices.back().x;
+  }
+  const Vertex& before = *(beyond - 1);
+  return between(before, *beyond, (arc - before.arc) / (beyond->arc - before.arc)).x;
+}
+
+void draw_events(const PathData& path, const std::vector<Curve>& curves, const Frame& frame,
+                 std::vector<Shape>& shapes) {
   std::vector<Shape> drawn;
   for (const ContactEvent& event : path.events) {
-    if (event.branch < path.branches.size() && !path.is_static) {
-      const Branch& branch = path.branches[event.branch];
-      const std::vector<double>& arcs = branch.arc_length;
-      const auto found = branch.monitors.find(path.x.monitor);
-      const double x = path.x.monitor.empty() ? event.arc_length
-                       : found == branch.monitors.end() || arcs.empty()
-                           ? kNone
-                           : path.x.sign * interpolate(arcs, found->second, event.arc_length);
-      if (std::isfinite(x)) {
-        drawn.push_back(mark_shape(event.mark, place(frame, x, event.load_factor)));
-      }
+    WorkLimit::poll();
+    const auto curve = std::find_if(curves.begin(), curves.end(),
+                                    [&](const Curve& one) { return one.branch == event.branch; });
+    if (curve != curves.end() && !path.is_static) {
+      const double x = abscissa_at(*curve, event.arc_length);
+      drawn.push_back(mark_shape(event.mark, place(frame, x, event.load_factor)));
     }
   }
   shapes.push_back(group("events", std::move(drawn)));
 }
 
-/// Draws the rows of a static analysis as dots; of a path only a single row.
-void draw_rows(const PathData& path, const std::vector<Curve>& curves, const Frame& frame,
+/// Draws the rows of a static analysis as dots; of a path a single row, or on request all that are computed.
+void draw_rows(const PathData& path, const std::vector<Curve>& curves, const Frame& frame, bool points,
                std::vector<Shape>& shapes) {
   constexpr std::size_t kMost = 200;  // more dots overlap
   for (const Curve& curve : curves) {
     const bool alone = curve.vertices.size() == 1;
-    for (std::size_t i = 0;
-         (path.is_static || alone) && curve.vertices.size() <= kMost && i < curve.vertices.size(); ++i) {
-      shapes.push_back(circle("row", place(frame, curve.vertices[i].x, curve.vertices[i].y), 2.5));
+    const bool all = (path.is_static || alone) && curve.vertices.size() <= kMost;
+    for (const Vertex& vertex : curve.vertices) {
+      if (all || (points && vertex.computed)) {
+        shapes.push_back(circle("row", place(frame, vertex.x, vertex.y), 2.5));
+      }
     }
   }
 }
@@ -496,8 +570,8 @@ Figure path_figure(const ResultInput& input, const PlotRequest& request, Size si
   for (const Curve& curve : curves) {
     draw_curve(curve, frame, taken, figure.shapes);
   }
-  draw_rows(path, curves, frame, figure.shapes);
-  draw_events(path, frame, figure.shapes);
+  draw_rows(path, curves, frame, request.points, figure.shapes);
+  draw_events(path, curves, frame, figure.shapes);
   draw_marks(marks_of(path, input, curves, frame), taken, figure.shapes);
   figure.shapes.push_back(legend_shape(legend, size.width));
   return figure;

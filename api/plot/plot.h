@@ -53,6 +53,7 @@ struct PlotRequest {
   std::optional<std::size_t> branch;   ///< path: index in `branches` of the only branch drawn; default: all
   std::optional<std::string> monitor;  ///< path: monitor on the horizontal axis; default: the first monitor
   bool over_arc_length = false;        ///< path: true plots over the arc length
+  bool points = false;                 ///< path: true marks the points at which an equilibrium was solved
   /// shape: factor of displacements, > 0. Default: 1, or a round number when displacements are too small to
   /// see; the caption states it. mode: amplitude in tenths of the structure's extent.
   std::optional<double> magnify;

@@ -90,6 +90,7 @@ std::map<std::string_view, Take> takers(PlotRequest& request) {
           {"branch", index(request.branch)},
           {"monitor", text(request.monitor)},
           {"over_arc_length", yes_or_no(request.over_arc_length)},
+          {"points", yes_or_no(request.points)},
           {"magnify", number_between(request.magnify, 1 / kLargestFactor, kLargestFactor)},
           {"output", text(request.output)},
           {"x", text(request.x)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/plot/geometry.h"
 #include "api/plot/plot.h"
 
 namespace snapthrough::api::plot {
@@ -57,6 +58,21 @@ Monitors read_monitors(const Field& table, std::size_t rows) {
   return monitors;
 }
 
+/// Returns the indices of the rows of a branch at which an equilibrium was solved: all, where the document
+/// does not tell.
+std::vector<std::size_t> read_computed(const Field& branch, std::size_t rows) {
+  std::vector<std::size_t> computed;
+  const std::optional<Field> all = branch.find("computed");
+  computed.reserve(all ? all->size() : rows);
+  for (std::size_t i = 0; i < (all ? all->size() : rows); ++i) {
+    computed.push_back(all ? all->item(i).index() : i);
+    if (computed.back() >= rows) {
+      all->item(i).fail("must be the index of one of the " + std::to_string(rows) + " rows");
+    }
+  }
+  return computed;
+}
+
 Branch read_branch(const Field& field) {
   Branch branch;
   branch.load_factor = field.at("load_factor").numbers();
@@ -67,6 +83,10 @@ Branch read_branch(const Field& field) {
   }
   branch.monitors = read_monitors(field, rows);
   branch.negative_eigenvalues = field.at("negative_eigenvalues").numbers(rows);
+  branch.computed = read_computed(field, rows);
+  if (const std::optional<Field> rates = field.find("rates")) {
+    branch.rates = Rates{rates->at("load_factor").numbers(rows), read_monitors(*rates, rows)};
+  }
   return branch;
 }
 
@@ -104,6 +124,13 @@ std::size_t read_branch_index(const Field& result, const Field& point) {
   return index;
 }
 
+PeakRange read_peaks(const Field& field) {
+  const auto peak = [](const Field& one) {
+    return std::pair(one.at("s").number(), one.at("value").number());
+  };
+  return {peak(field.at("min")), peak(field.at("max"))};
+}
+
 MemberState read_member(const Field& field) {
   MemberState state;
   state.s = field.at("s").increasing();
@@ -121,6 +148,11 @@ MemberState read_member(const Field& field) {
   state.axial_force = read("axial_force");
   state.shear_force = read("shear_force");
   state.bending_moment = read("bending_moment");
+  if (const std::optional<Field> extremes = field.find("extremes")) {
+    for (const char* name : {"axial_force", "shear_force", "bending_moment"}) {
+      state.extremes.emplace(name, read_peaks(extremes->at(name)));
+    }
+  }
   return state;
 }
 
@@ -134,6 +166,16 @@ FoundationState read_foundation(const Field& field) {
   state.reaction = field.at("reaction").numbers(state.s.size());
   state.displacement = field.at("displacement").numbers(state.s.size());
   state.resultant = read_force(field.at("resultant"));
+  if (const std::optional<Field> extremes = field.find("extremes"); extremes && !state.s.empty()) {
+    const std::vector<double> places = state.s;
+    add_peaks(read_peaks(*extremes), state.s, state.reaction);
+    std::vector<double> displacement;
+    displacement.reserve(state.s.size());
+    for (const double s : state.s) {
+      displacement.push_back(interpolate(places, state.displacement, s));
+    }
+    state.displacement = std::move(displacement);
+  }
   const Field contact = field.at("contact");
   for (std::size_t i = 0; i < contact.size(); ++i) {
     const std::vector<double> ends = contact.item(i).increasing();
@@ -146,6 +188,17 @@ FoundationState read_foundation(const Field& field) {
 }
 
 }  // namespace
+
+void add_peaks(const PeakRange& peaks, std::vector<double>& s, std::vector<double>& values) {
+  for (const auto& [place, value] : {peaks.min, peaks.max}) {
+    const auto next = std::lower_bound(s.begin(), s.end(), place);
+    if (next != s.end() && *next == place) {
+      continue;
+    }
+    values.insert(values.begin() + (next - s.begin()), value);
+    s.insert(next, place);
+  }
+}
 
 std::vector<Branch> read_branches(const Field& result) {
   std::vector<Branch> branches;

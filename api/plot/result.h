@@ -17,12 +17,20 @@ namespace snapthrough::api::plot {
 
 using Monitors = std::map<std::string, std::vector<double>>;
 
-/// Rows of a branch of a path, or of a static analysis; lists of equal length.
+/// Rates along a branch by arc length, one a row.
+struct Rates {
+  std::vector<double> load_factor;
+  Monitors monitors;
+};
+
+/// Rows of a branch of a path, or of a static analysis; lists of equal length but for `computed`.
 struct Branch {
   std::vector<double> load_factor;
   std::vector<double> arc_length;  ///< arc length of the path; static analysis: row's index
   Monitors monitors;
   std::vector<double> negative_eigenvalues;  ///< number at each row; kNone: not counted
+  std::vector<std::size_t> computed;         ///< rows at which an equilibrium was solved
+  std::optional<Rates> rates;                ///< nullopt: straight lines between the rows
 };
 
 struct CriticalPoint {
@@ -42,10 +50,20 @@ struct ContactEvent {
   double arc_length = 0;
 };
 
+/// Smallest and largest value along a member, by the place.
+struct PeakRange {
+  std::pair<double, double> min, max;  ///< arc length, value
+};
+
 /// State of a member along its axis; lists of equal length, at least two.
 struct MemberState {
   std::vector<double> s, x0, y0, x, y, u, v, axial_force, shear_force, bending_moment;
+  /// Extremes of N, Q and M by their names in the document; empty in results of earlier versions.
+  std::map<std::string, PeakRange> extremes;
 };
+
+/// Adds the extremes of a quantity to a list of its values where the list has no such place.
+void add_peaks(const PeakRange& peaks, std::vector<double>& s, std::vector<double>& values);
 
 struct Force {
   double fx = 0;

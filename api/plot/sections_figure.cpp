@@ -10,7 +10,14 @@
 namespace snapthrough::api::plot {
 namespace {
 
-SectionLine line_of(const MemberState& state, const std::vector<double>& values) { return {state.s, values}; }
+/// Returns the values of a quantity of a member, its extremes among them.
+SectionLine line_of(const MemberState& state, const char* name, const std::vector<double>& values) {
+  SectionLine line{state.s, values};
+  if (const auto peaks = state.extremes.find(name); peaks != state.extremes.end()) {
+    add_peaks(peaks->second, line.s, line.values);
+  }
+  return line;
+}
 
 }  // namespace
 
@@ -37,9 +44,9 @@ Figure sections_figure(const ResultInput& input, const PlotRequest& request, Siz
   for (const std::string& id : ids) {
     const MemberState& member = state.members.at(id);
     sections.members.push_back({id, member.s.back()});
-    sections.panels[0].lines.push_back(line_of(member, member.axial_force));
-    sections.panels[1].lines.push_back(line_of(member, member.shear_force));
-    sections.panels[2].lines.push_back(line_of(member, member.bending_moment));
+    sections.panels[0].lines.push_back(line_of(member, "axial_force", member.axial_force));
+    sections.panels[1].lines.push_back(line_of(member, "shear_force", member.shear_force));
+    sections.panels[2].lines.push_back(line_of(member, "bending_moment", member.bending_moment));
   }
   // Smaller values are rounding; the limit of moments is relative to the largest force times the length.
   const double force = std::max(largest_of(sections.panels[0]), largest_of(sections.panels[1]));

@@ -50,6 +50,7 @@ void add_choices(CLI::App& command, PlotArguments& arguments) {
       command.add_option("--monitor", figure.monitor, "path: id of the monitor on the horizontal axis");
   command.add_flag("--arc-length", figure.over_arc_length, "path: arc length on the horizontal axis")
       ->excludes(monitor);
+  command.add_flag("--points", figure.points, "path: mark the points at which an equilibrium was solved");
   command.add_option("--magnify", figure.magnify, "shape: factor of displacements; mode: factor of its size")
       ->check(CLI::PositiveNumber);
   command.add_option("--output", figure.output,

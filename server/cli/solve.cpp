@@ -12,6 +12,7 @@
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
 #include "server/cli/shown.h"
+#include "solver/numeric/number_text.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {
@@ -91,6 +92,47 @@ void print_warnings(const Result& result, const Streams& streams) {
   }
 }
 
+/// Returns the load to use where the structure is nearly unstable before it loses stability; nullopt
+/// elsewhere.
+std::optional<double> load_to_use(const Result& result) {
+  const bool warned = std::any_of(result.warnings.begin(), result.warnings.end(),
+                                  [](const Warning& warning) { return warning.code == "nearly_unstable"; });
+  return warned && result.summary.softest ? std::optional(result.summary.softest->load_factor) : std::nullopt;
+}
+
+/// Returns what monitors read at the last load factor of a static analysis or of the first path; "" without
+/// monitors.
+std::string last_readings(const Result& result) {
+  const bool is_static = result.static_table.has_value();
+  if (!is_static && result.branches.empty()) {
+    return "";
+  }
+  const auto& monitors = is_static ? result.static_table->monitors : result.branches.front().monitors;
+  const auto& loads = is_static ? result.static_table->load_factor : result.branches.front().load_factor;
+  std::string text;
+  for (const NamedSeries& monitor : monitors) {
+    if (!monitor.values.empty()) {
+      text += (text.empty() ? "" : ", ") + monitor.id + " " + rounded(monitor.values.back(), 5);
+    }
+  }
+  return text.empty() ? "" : text + " at load factor " + rounded(loads.back(), 5);
+}
+
+/// Prints what the analysis was asked for as the last line of a terminal: the load to use, else the critical
+/// load, else what monitors read.
+void print_answer(const Result& result, const Streams& streams) {
+  const Summary& summary = result.summary;
+  if (const std::optional<double> use = load_to_use(result)) {
+    streams.err << "Load factor to use: " << number(*use) << '\n';
+  } else if (summary.critical_load_factor) {
+    streams.err << "Critical load factor: " << number(*summary.critical_load_factor) << '\n';
+  } else if (result.buckling && !result.buckling->load_factors.empty()) {
+    streams.err << "Buckling load factor: " << number(result.buckling->load_factors.front()) << '\n';
+  } else if (const std::string readings = last_readings(result); !readings.empty()) {
+    streams.err << readings << '\n';
+  }
+}
+
 }  // namespace
 
 int solve_command(const std::string& path, const Streams& streams, const SolveOptions& options) {
@@ -114,6 +156,9 @@ int solve_command(const std::string& path, const Streams& streams, const SolveOp
   }
   print_warnings(result, streams);
   if (!result.failure) {
+    if (options.show_progress) {
+      print_answer(result, streams);
+    }
     return kDone;
   }
   streams.err << "The analysis could not be completed: " << result.failure->detail << " ["

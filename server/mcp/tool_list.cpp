@@ -64,6 +64,7 @@ json plot_schema() {
        {"branch", whole_field("path: number of the only branch to draw, from 0")},
        {"monitor", text_field("path: id of the monitor on the horizontal axis")},
        {"arc_length", flag_field("path: arc length on the horizontal axis")},
+       {"points", flag_field("path: mark the points at which an equilibrium was solved")},
        {"magnify", {{"type", "number"}, {"exclusiveMinimum", 0}, {"description", "Factor of displacements"}}},
        {"output", text_field("sweep, heatmap: column of the table")},
        {"x", text_field("sweep, heatmap: parameter on the horizontal axis")},

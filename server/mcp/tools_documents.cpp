@@ -193,9 +193,9 @@ json Tools::read(const json& arguments, Dialogue& /*dialogue*/) {
 
 json Tools::plot(const json& arguments, Dialogue& /*dialogue*/) {
   Reader in(arguments);
-  in.findings =
-      unknown_members(arguments, {"id", "model", "kind", "state", "mode", "branch", "monitor", "arc_length",
-                                  "magnify", "output", "x", "by", "width", "height", "dark", "svg"});
+  in.findings = unknown_members(
+      arguments, {"id", "model", "kind", "state", "mode", "branch", "monitor", "arc_length", "points",
+                  "magnify", "output", "x", "by", "width", "height", "dark", "svg"});
   const std::optional<std::string> id = in.text("id");
   const Kept* kept = id ? shelf_.find(*id) : nullptr;
   if (id.has_value() == arguments.contains("model")) {
@@ -205,6 +205,7 @@ json Tools::plot(const json& arguments, Dialogue& /*dialogue*/) {
   }
   api::PlotRequest figure = figure_of(in);
   figure.over_arc_length = in.flag("arc_length");
+  figure.points = in.flag("points");
   figure.dark = in.flag("dark");
   const bool as_svg = in.flag("svg");
   if (!in.findings.empty()) {

@@ -44,6 +44,7 @@ constexpr QueryParameter<PlotRequest> kPlotParameters[] = {
      [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.monitor); }},
     {"arc-length",
      [](const std::string& value, PlotRequest& figure) { return read_flag(value, figure.over_arc_length); }},
+    {"points", [](const std::string& value, PlotRequest& figure) { return read_flag(value, figure.points); }},
     {"magnify",
      [](const std::string& value, PlotRequest& figure) {
        figure.magnify = whole_number<double>(value);
@@ -66,7 +67,7 @@ std::optional<Response> read_plot_query(const Request& request, PlotRequest& fig
     return wrong_parameter(request,
                            "kind (" + api::names_in(api::kPlotKinds) +
                                "), state, mode and branch (numbers from 0), monitor, output, x, by, "
-                               "arc-length and dark (true or "
+                               "arc-length, points and dark (true or "
                                "false), magnify (above 0), width and height (200 to 8000), each once, and "
                                "where (NAME=VALUE, each NAME once)",
                            wrong->first, wrong->second);

@@ -45,7 +45,11 @@ void Recorder::begin_branch(int branch_number, std::optional<int> parent) {
   Branch branch;
   branch.id = branch_;
   branch.parent = parent;
-  for (const MonitorRow& monitor : structure_.monitors) branch.monitors.push_back({monitor.id, {}});
+  branch.rates.emplace();
+  for (const MonitorRow& monitor : structure_.monitors) {
+    branch.monitors.push_back({monitor.id, {}});
+    branch.rates->monitors.push_back({monitor.id, {}});
+  }
   for (const Foundation& foundation : model_.foundations)
     branch.contact_fraction.push_back({foundation.id, {}});
   result_.branches.push_back(std::move(branch));
@@ -63,23 +67,29 @@ void Recorder::add_point(const PathPoint& point) {
     observer_.add_to_extremes(point.y, point.lambda, branch_);
   if (branch_ == 0 && !analysis_.start) softest_.set_unloaded(point);
   if (analysis_.type != AnalysisType::path) return;
-  if (output.path_points)
-    kept_.add(point);
-  else
-    add_row(point);
+  kept_.add(point, softest_.ratio(point));
+  if (output.path_points) return;
+  kept_.forget_modes();
+  if (kept_.are_many()) add_rows(false);
 }
 
-void Recorder::add_row(const PathPoint& point) {
+void Recorder::add_row(const PathRow& row) {
+  const PathPoint& point = row.point;
   Branch& branch = result_.branches.back();
+  if (row.computed) branch.computed.push_back(static_cast<int>(branch.load_factor.size()));
+  branch.rates->load_factor.push_back(point.tangent_lambda / structure_.scales.load);
   branch.load_factor.push_back(user_load(point));
   branch.arc_length.push_back(point.arc_length);
   branch.negative_eigenvalues.push_back(point.negative);
   const bool is_lost = branch_ == 0 && lost_ == point.arc_length;
-  branch.stiffness_ratio.push_back(is_lost ? 0.0 : softest_.ratio(point));
-  for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
+  const auto ratio = row.stiffness_ratio ? row.stiffness_ratio : softest_.ratio(point);
+  branch.stiffness_ratio.push_back(is_lost ? 0.0 : ratio);
+  for (std::size_t i = 0; i < structure_.monitors.size(); ++i) {
     branch.monitors[i].values.push_back(structure_.monitors[i].row.dot(point.y));
+    branch.rates->monitors[i].values.push_back(structure_.monitors[i].row.dot(point.tangent));
+  }
   if (probe_) {
-    const auto found = probe_->at(point.y, point.lambda);
+    const auto found = row.computed ? probe_->at(point.y, point.lambda) : std::nullopt;
     branch.frequencies.push_back(found ? std::optional(probe_->in_units(*found)) : std::nullopt);
     if (found) result_.diagnostics.factorizations += found->factorizations;
   }
@@ -87,20 +97,37 @@ void Recorder::add_row(const PathPoint& point) {
   for (std::size_t i = 0; i < contact.size(); ++i) branch.contact_fraction[i].values.push_back(contact[i]);
 }
 
-/// Adds the rows of the stored points and of the points between them.
-void Recorder::spread_points() {
-  const int asked = *analysis_.output.path_points;
-  int missing = 0;
-  const std::vector<PathPoint> points = kept_.spread(solver_, asked, hooks_.stop, missing);
-  for (const PathPoint& point : points) add_row(point);
+/// Adds the rows of the kept points and of points between them.
+/// @param last the branch has no more points
+void Recorder::add_rows(bool last) {
+  const auto monitors = [this](const Eigen::VectorXd& y) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(structure_.monitors.size()));
+    for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
+      values[static_cast<Eigen::Index>(i)] = structure_.monitors[i].row.dot(y);
+    return values;
+  };
+  const RowVisitor add = [this](const PathRow& row) { add_row(row); };
+  missing_rows_ += analysis_.output.path_points
+                       ? kept_.spread(solver_, *analysis_.output.path_points, hooks_.stop, add)
+                       : kept_.follow(solver_, monitors, last, hooks_.stop, add);
+  if (!last) return;
   kept_ = {};
-  const auto count = static_cast<int>(points.size());
+  warn_of_rows(std::exchange(missing_rows_, 0));
+}
+
+/// Warns where a branch has fewer rows than were asked for, or than straight lines need.
+void Recorder::warn_of_rows(int missing) {
+  const int asked = analysis_.output.path_points.value_or(0);
+  const auto count = static_cast<int>(result_.branches.back().load_factor.size());
   if (missing == 0 && count >= asked) return;
+  const std::string places = std::to_string(missing) + " between them could not be corrected";
+  const std::string branch =
+      "branch " + std::to_string(branch_) + " has " + std::to_string(count) + " points";
+  const std::string why = missing > 0 ? places : "it has no length";
   result_.warnings.push_back(
-      {"path_points", "branch " + std::to_string(branch_) + " has " + std::to_string(count) + " points for " +
-                          std::to_string(asked) + " asked for: " +
-                          (missing > 0 ? std::to_string(missing) + " between them could not be corrected"
-                                       : "it has no length")});
+      {"path_points", asked > 0 ? branch + " for " + std::to_string(asked) + " asked for: " + why
+                                : branch + ", and " + places +
+                                      ": straight lines may be more than 1 % of the ranges off there"});
 }
 
 void Recorder::add_critical(const CriticalEvent& event) {
@@ -120,8 +147,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
       point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
     point.mode = mode_at(structure_, model_, solver_.problem(), event, analysis_);
-  if (!passed_by && analysis_.output.path_points && analysis_.type == AnalysisType::path)
-    kept_.add_critical(event);
+  if (!passed_by && analysis_.type == AnalysisType::path) kept_.add_critical(event);
   if (is_loss_of_stability(analysis_, point) && !result_.summary.critical_load_factor) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
@@ -134,6 +160,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
 }
 
 void Recorder::on_contact(const ContactChange& change) {
+  if (analysis_.type == AnalysisType::path) kept_.add_change(change);
   for (std::size_t i = 0; i < zones_.ids().size(); ++i) {
     if (change.before[i] == change.after[i]) continue;
     ContactEvent event;
@@ -155,7 +182,7 @@ ZoneCounter Recorder::zone_counter() const {
 
 void Recorder::end_branch(const char* code) {
   if (result_.branches.empty()) return;
-  if (analysis_.output.path_points) spread_points();
+  add_rows(true);
   result_.branches.back().termination = code;
 }
 

@@ -66,8 +66,9 @@ class Recorder final : public PathObserver {
   void finish(bool last);
 
  private:
-  void add_row(const PathPoint& point);
-  void spread_points();
+  void add_row(const PathRow& row);
+  void add_rows(bool last);
+  void warn_of_rows(int missing);
   void add_critical(const CriticalEvent& event);
   /// Adds a state to the result.
   /// @param most imbalance() of an equilibrium
@@ -90,7 +91,8 @@ class Recorder final : public PathObserver {
   std::string refused_;                    ///< sentences on states that are no equilibrium
   std::vector<StaticState> asked_states_;  ///< at asked load factors; rows: indices in the result
   std::vector<char> reached_;              ///< requested load factors whose states were recorded
-  PathPoints kept_;                        ///< current branch, when `output.path_points` is requested
+  PathPoints kept_;                        ///< current branch of a path
+  int missing_rows_ = 0;                   ///< of that branch, see PathPoints
   int points_ = 0;
   int branch_ = 0;
   int branch_points_ = 0;  ///< reported on the current branch

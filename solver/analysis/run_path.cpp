@@ -305,6 +305,7 @@ bool BranchFollower::follow(const Pending& pending) {
   recorder_.begin_branch(id, pending.parent);
   PathPoint origin = pending.at.point;
   origin.arc_length = 0.0;
+  origin.tangent.resize(0);  // the branch's tangent is not that of its parent
   recorder_.add_point(origin);
   TraceRules rules = rules_;
   rules.first_step = 0.02;

@@ -90,7 +90,7 @@ std::vector<ContactChange> locate_contact_changes(PointSolver& solver, const Pat
   PathPoint from = a;
   std::vector<int> beyond;
   if (changes_at_start(step, count, old, beyond)) {
-    out.push_back({a, old, beyond});
+    out.push_back({a, a, old, beyond});
     old = std::move(beyond);
   }
   while (old != last && out.size() < ChangeLimits::changes) {
@@ -100,6 +100,7 @@ std::vector<ContactChange> locate_contact_changes(PointSolver& solver, const Pat
     change.before = old;
     count(bracket.after.y, old);
     change.after = old;
+    change.last_before = bracket.before;
     // at a kink the contact change is next to the start of the step
     change.point = at_kink && !closed ? bracket.before : bracket.after;
     out.push_back(std::move(change));

@@ -14,6 +14,7 @@ using ZoneCounter = std::function<void(const Eigen::VectorXd& y, std::vector<int
 
 /// Path point at which contact zones begin, end, divide or join, with the zone counts on both sides.
 struct ContactChange {
+  PathPoint last_before;  ///< next to `point`, with the counts before the change
   PathPoint point;
   std::vector<int> before;
   std::vector<int> after;

@@ -22,6 +22,14 @@ struct CubicWeights {
   }
 };
 
+/// @brief Weights of the first derivative of that interpolant, at a fraction t of d: of the rise b - a, and
+/// of the slopes.
+struct CubicRates {
+  double rise, da, db;
+  CubicRates(double t, double d)
+      : rise(6.0 * t * (1.0 - t) / d), da((1.0 - t) * (1.0 - 3.0 * t)), db(t * (3.0 * t - 2.0)) {}
+};
+
 /// @brief Second and third derivative, at the end of an interval of length d, of the cubic with the given
 /// slopes at its ends and the given rise. T is a number or a vector; the rise may be an expression.
 template <class Rise, class T>

@@ -13,10 +13,11 @@ namespace snapthrough {
 
 /// A point of an equilibrium path with its tangent and its inertia.
 struct PathPoint {
-  Eigen::VectorXd y;            ///< scaled unknowns
-  double lambda = 0.0;          ///< scaled load factor
-  double arc_length = 0.0;      ///< from the path's first point, in the norm that the path began with
-  Eigen::VectorXd tangent;      ///< dy/ds, of norm one together with tangent_lambda in the path's norm
+  Eigen::VectorXd y;        ///< scaled unknowns
+  double lambda = 0.0;      ///< scaled load factor
+  double arc_length = 0.0;  ///< from the path's first point, in the norm that the path began with
+  /// dy/ds, of norm one together with tangent_lambda in the path's norm; empty: not known
+  Eigen::VectorXd tangent;
   double tangent_lambda = 0.0;  ///< dlambda/ds: zero at a limit point
   int negative = 0;             ///< negative eigenvalues of the constrained tangent stiffness
   double log_abs_det = 0.0;     ///< log |det J| of the tangent stiffness

@@ -66,19 +66,24 @@ void Segment::interpolate(double fraction, PathPoint& point) const {
 }
 
 std::optional<PathPoint> Segment::point_at(double fraction) const {
-  PathPoint point;
-  point.holds = from_->holds;
-  interpolate(fraction, point);
+  PathPoint guess;
+  interpolate(fraction, guess);
+  auto point = point_near(std::move(guess));
+  if (point) point->arc_length = (1.0 - fraction) * from_->arc_length + fraction * to_->arc_length;
+  return point;
+}
+
+std::optional<PathPoint> Segment::point_near(PathPoint guess) const {
+  guess.holds = from_->holds;
   const double scale =
       std::max(distance(), direction_->by_displacement ? kRoundingResidual : Gradients::tiny);
   const auto outcome =
-      solver_.correct_in_plane(direction_->y, direction_->lambda, scale, solver_.options(), point);
+      solver_.correct_in_plane(direction_->y, direction_->lambda, scale, solver_.options(), guess);
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
   const bool as_from = outcome.tangent.negative % 2 == from_->negative % 2;
-  solver_.set_tangent(point, outcome, as_from ? from_->negative : to_->negative, direction_->y,
+  solver_.set_tangent(guess, outcome, as_from ? from_->negative : to_->negative, direction_->y,
                       direction_->lambda);
-  point.arc_length = (1.0 - fraction) * from_->arc_length + fraction * to_->arc_length;
-  return point;
+  return guess;
 }
 
 }  // namespace snapthrough

@@ -50,6 +50,9 @@ class Segment {
   /// @brief The point of the path at a fraction, with its tangent and inertia.
   /// @return empty when the correction failed
   [[nodiscard]] std::optional<PathPoint> point_at(double fraction) const;
+  /// @brief The point of the path in the plane of a guess.
+  /// @param guess y and lambda near the path
+  [[nodiscard]] std::optional<PathPoint> point_near(PathPoint guess) const;
 
  private:
   struct Direction {

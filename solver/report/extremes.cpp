@@ -1,24 +1,27 @@
 #include "solver/report/extremes.h"
 
-#include <cmath>
 #include <cstddef>
 
 namespace snapthrough {
 namespace {
 
-void widen(const Extreme& at, ExtremeRange& range) {
-  if (at.value < range.min.value) range.min = at;
-  if (at.value > range.max.value) range.max = at;
+Extreme extreme(const Peak& peak, int branch, double load_factor) {
+  return {peak.value, peak.s, branch, load_factor};
 }
 
-/// Extremes of a member initialised with its first sampled place.
-MemberExtremes first_place(const MemberState& member, int branch, double load_factor) {
-  const auto at = [&](double value) { return Extreme{value, member.s.front(), branch, load_factor}; };
-  const auto range = [&](const std::vector<double>& values) {
-    return ExtremeRange{at(values.front()), at(values.front())};
+void widen(const PeakRange& by, int branch, double load_factor, ExtremeRange& range) {
+  if (by.min.value < range.min.value) range.min = extreme(by.min, branch, load_factor);
+  if (by.max.value > range.max.value) range.max = extreme(by.max, branch, load_factor);
+}
+
+/// Extremes of a member over its first state.
+MemberExtremes first_state(const MemberState& member, int branch, double load_factor) {
+  const auto range = [&](const PeakRange& of) {
+    return ExtremeRange{extreme(of.min, branch, load_factor), extreme(of.max, branch, load_factor)};
   };
-  return {member.id, range(member.axial_force), range(member.shear_force), range(member.bending_moment),
-          at(std::hypot(member.u.front(), member.v.front()))};
+  const MemberPeaks& peaks = member.extremes;
+  return {member.id, range(peaks.axial_force), range(peaks.shear_force), range(peaks.bending_moment),
+          extreme(peaks.displacement, branch, load_factor)};
 }
 
 }  // namespace
@@ -26,17 +29,17 @@ MemberExtremes first_place(const MemberState& member, int branch, double load_fa
 void widen_extremes(const std::vector<MemberState>& members, int branch, double load_factor,
                     std::vector<MemberExtremes>& extremes) {
   for (std::size_t m = 0; m < members.size(); ++m) {
-    const MemberState& member = members[m];
-    if (extremes.size() == m) extremes.push_back(first_place(member, branch, load_factor));
-    MemberExtremes& out = extremes[m];
-    for (std::size_t i = 0; i < member.s.size(); ++i) {
-      const auto at = [&](double value) { return Extreme{value, member.s[i], branch, load_factor}; };
-      widen(at(member.axial_force[i]), out.axial_force);
-      widen(at(member.shear_force[i]), out.shear_force);
-      widen(at(member.bending_moment[i]), out.bending_moment);
-      const Extreme moved = at(std::hypot(member.u[i], member.v[i]));
-      if (moved.value > out.displacement.value) out.displacement = moved;
+    if (extremes.size() == m) {
+      extremes.push_back(first_state(members[m], branch, load_factor));
+      continue;
     }
+    const MemberPeaks& peaks = members[m].extremes;
+    MemberExtremes& out = extremes[m];
+    widen(peaks.axial_force, branch, load_factor, out.axial_force);
+    widen(peaks.shear_force, branch, load_factor, out.shear_force);
+    widen(peaks.bending_moment, branch, load_factor, out.bending_moment);
+    if (peaks.displacement.value > out.displacement.value)
+      out.displacement = extreme(peaks.displacement, branch, load_factor);
   }
 }
 

@@ -15,6 +15,18 @@ Vector3d displacement_of(const VectorXd& y, int node) {
   return y.segment<3>(3 * static_cast<Eigen::Index>(node));
 }
 
+/// Sets the extremes of a rod: its force is constant, and one of its ends moves most.
+void set_peaks(MemberState& rod) {
+  const Peak force{rod.axial_force.front(), rod.s.front()};
+  const Peak none{0.0, rod.s.front()};
+  const double first = std::hypot(rod.u.front(), rod.v.front());
+  const double last = std::hypot(rod.u.back(), rod.v.back());
+  rod.extremes = {{force, force},
+                  {none, none},
+                  {none, none},
+                  first >= last ? Peak{first, rod.s.front()} : Peak{last, rod.s.back()}};
+}
+
 }  // namespace
 
 MemberMode rod_mode(const Structure& structure, const Model& model, std::size_t spring, const VectorXd& mode,
@@ -66,6 +78,7 @@ MemberState rod_state(const Structure& structure, const Model& model, std::size_
   out.axial_force.assign(out.s.size(), force + 0.0);
   out.shear_force.assign(out.s.size(), 0.0);
   out.bending_moment.assign(out.s.size(), 0.0);
+  set_peaks(out);
   return out;
 }
 

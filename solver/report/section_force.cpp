@@ -279,6 +279,15 @@ std::vector<double> SectionForces::breaks_beyond(double xi) const {
   return breaks;
 }
 
+std::vector<double> SectionForces::breaks() const {
+  std::vector<double> places = breaks_beyond(0.0);
+  for (const PointAction& point : points_) places.push_back(point.xi);
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::erase_if(places, [](double xi) { return xi <= kOnePlace || xi >= 1.0 - kOnePlace; });
+  return places;
+}
+
 std::array<double, 3> SectionForces::at(double xi) const {
   const Vec2 x0 = position(xi);
   const Vec2 xb = position(1.0);

@@ -32,6 +32,9 @@ class SectionForces {
 
   /// (force x, force y, moment) at xi in [0, 1] of the part beyond xi on the part before it, scaled.
   [[nodiscard]] std::array<double, 3> at(double xi) const;
+  /// Places in (0, 1), ascending, where actions begin, end or are concentrated: the forces jump there or
+  /// turn.
+  [[nodiscard]] std::vector<double> breaks() const;
 
  private:
   using Vec2 = std::array<double, 2>;

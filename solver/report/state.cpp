@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <span>
 
 #include "solver/discrete/element_reader.h"
@@ -14,6 +13,7 @@
 #include "solver/model/id_index.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/contact.h"
+#include "solver/report/peaks.h"
 #include "solver/report/rod_state.h"
 #include "solver/report/section_force.h"
 #include "solver/report/support_state.h"
@@ -22,42 +22,118 @@
 namespace snapthrough {
 namespace {
 
-MemberState member_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                         double lambda, const std::vector<LayerState>& layers, int member, int points) {
-  const double L = structure.scales.length;
-  const double F = structure.scales.force;
-  const StressFreeAxis& axis = *structure.stress_free[member];
-  const double length = axis.perfect().length();
-  MemberState out;
-  out.id = model.members[member].id;
-  int current = -1;
-  std::unique_ptr<ElementReader> reader;
-  std::unique_ptr<SectionForces> forces;
-  for (int i = 0; i < points; ++i) {
-    const double fraction = static_cast<double>(i) / (points - 1);
-    const MeshPlace place = place_of(structure.mesh, member, fraction);
-    if (place.element != current) {
-      current = place.element;
-      reader = std::make_unique<ElementReader>(structure, y, current);
-      forces = std::make_unique<SectionForces>(structure, model, y, lambda, layers, current);
-    }
-    const auto u = reader->displacement(place.xi);
-    const auto n = forces->at(place.xi);
-    const StressFreePoint p = axis.at(fraction * length);
+/// Reads displacements and section forces of one member in a state.
+class MemberReader {
+ public:
+  MemberReader(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
+               const std::vector<LayerState>& layers, int member)
+      : structure_(structure), axis_(*structure.stress_free[member]), member_(member) {
+    const int first = structure.mesh.first[static_cast<std::size_t>(member)];
+    const int end = structure.mesh.first[static_cast<std::size_t>(member) + 1];
+    for (int e = first; e < end; ++e)
+      elements_.push_back(
+          {ElementReader(structure, y, e), SectionForces(structure, model, y, lambda, layers, e)});
+  }
+
+  /// Values at a place, in the model's units.
+  struct Values {
+    std::array<double, 3> displacement;  ///< x, y, rotation
+    double axial_force, shear_force, bending_moment;
+  };
+  [[nodiscard]] Values at(const MeshPlace& place) const {
+    const Element& element = elements_[index_of(place.element)];
+    const double L = structure_.scales.length;
+    const double F = structure_.scales.force;
+    const auto u = element.displacements.displacement(place.xi);
+    const auto n = element.forces.at(place.xi);
     // small displacements: equilibrium of the undeformed shape
-    const double angle = p.angle + (structure.geometry == Geometry::linear ? 0.0 : u[2]);
-    out.s.push_back(fraction * length);
+    const double angle =
+        undeformed(s_of(place)).angle + (structure_.geometry == Geometry::linear ? 0.0 : u[2]);
+    return {{L * u[0], L * u[1], u[2]},
+            F * (n[0] * std::cos(angle) + n[1] * std::sin(angle)),
+            F * (-n[0] * std::sin(angle) + n[1] * std::cos(angle)),
+            F * L * n[2]};
+  }
+  [[nodiscard]] MeshPlace place(double s) const { return place_of(structure_.mesh, member_, s / length()); }
+  [[nodiscard]] double length() const { return axis_.perfect().length(); }
+  [[nodiscard]] StressFreePoint undeformed(double s) const { return axis_.at(s); }
+
+  /// @brief Extremes along the member.
+  /// @param known its values at places, ascending
+  [[nodiscard]] MemberPeaks peaks(const MemberState& known) const;
+
+ private:
+  struct Element {
+    ElementReader displacements;
+    SectionForces forces;
+  };
+  [[nodiscard]] std::size_t index_of(int element) const {
+    return static_cast<std::size_t>(element - structure_.mesh.first[static_cast<std::size_t>(member_)]);
+  }
+  [[nodiscard]] double s_of(const MeshPlace& place) const {
+    const MeshElement& cell = structure_.mesh.elements[static_cast<std::size_t>(place.element)];
+    return length() * (cell.from + place.xi * (cell.to - cell.from));
+  }
+  [[nodiscard]] std::array<double, 4> peak_values(const MeshPlace& place) const {
+    const Values values = at(place);
+    return {values.axial_force, values.shear_force, values.bending_moment,
+            std::hypot(values.displacement[0], values.displacement[1])};
+  }
+
+  const Structure& structure_;
+  const StressFreeAxis& axis_;
+  int member_;
+  std::vector<Element> elements_;
+};
+
+MemberPeaks MemberReader::peaks(const MemberState& known) const {
+  PeakSearch<4> search;
+  const auto known_values = [&known](std::size_t i) {
+    return std::array{known.axial_force[i], known.shear_force[i], known.bending_moment[i],
+                      std::hypot(known.u[i], known.v[i])};
+  };
+  const auto values_at = [this](double s) { return peak_values(place(s)); };
+  const int first = structure_.mesh.first[static_cast<std::size_t>(member_)];
+  const auto sample = [&](std::size_t element, double xi) {
+    const MeshPlace place{first + static_cast<int>(element), xi};
+    return PeakSearch<4>::Sample{s_of(place), peak_values(place)};
+  };
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    PeakSearch<4>::Sample from = sample(i, 0.0);
+    for (const double xi : elements_[i].forces.breaks()) {
+      // forces have the value beyond a jump at the jump itself
+      search.add_piece(known.s, known_values, from, sample(i, xi - kOnePlace), values_at);
+      from = sample(i, xi);
+    }
+    search.add_piece(known.s, known_values, from, sample(i, 1.0), values_at);
+  }
+  search.refine(values_at);
+  return {search.range(0, values_at), search.range(1, values_at), search.range(2, values_at),
+          search.largest(3, 1.0, values_at)};
+}
+
+MemberState member_state(const MemberReader& reader, const Structure& structure, const std::string& id,
+                         int points) {
+  MemberState out;
+  out.id = id;
+  for (int i = 0; i < points; ++i) {
+    const double s = reader.length() * i / (points - 1);
+    const MemberReader::Values values = reader.at(reader.place(s));
+    const StressFreePoint p = reader.undeformed(s);
+    const auto& u = values.displacement;
+    out.s.push_back(s);
     out.x0.push_back(structure.origin[0] + p.x);
     out.y0.push_back(structure.origin[1] + p.y);
-    out.u.push_back(L * u[0]);
-    out.v.push_back(L * u[1]);
-    out.x.push_back(structure.origin[0] + p.x + L * u[0]);
-    out.y.push_back(structure.origin[1] + p.y + L * u[1]);
+    out.u.push_back(u[0]);
+    out.v.push_back(u[1]);
+    out.x.push_back(structure.origin[0] + p.x + u[0]);
+    out.y.push_back(structure.origin[1] + p.y + u[1]);
     out.rotation.push_back(u[2]);
-    out.axial_force.push_back(F * (n[0] * std::cos(angle) + n[1] * std::sin(angle)));
-    out.shear_force.push_back(F * (-n[0] * std::sin(angle) + n[1] * std::cos(angle)));
-    out.bending_moment.push_back(F * L * n[2]);
+    out.axial_force.push_back(values.axial_force);
+    out.shear_force.push_back(values.shear_force);
+    out.bending_moment.push_back(values.bending_moment);
   }
+  out.extremes = reader.peaks(out);
   return out;
 }
 
@@ -69,38 +145,99 @@ MeshPlace place_under(const Mesh& mesh, int member, const Foundation& foundation
   return is_beyond ? MeshPlace{place.element - 1, 1.0} : place;
 }
 
+/// Reads the reaction of one foundation along its range in a state.
+class FoundationReader {
+ public:
+  FoundationReader(const Structure& structure, const Model& model, const Eigen::VectorXd& y, int index,
+                   const std::vector<std::array<double, 2>>& contact)
+      : structure_(structure),
+        y_(y),
+        foundation_(model.foundations[static_cast<std::size_t>(index)]),
+        member_(index_of(model.members, foundation_.member)),
+        law_(structure.foundation_laws[static_cast<std::size_t>(index)]),
+        contact_(contact) {}
+
+  struct Values {
+    double reaction, displacement;
+  };
+  /// Values at a fraction of the member, in the model's units and the user's sign: a pushing medium has a
+  /// positive reaction, a pulling one a negative.
+  [[nodiscard]] Values at(double fraction) const {
+    return at(fraction, place_under(structure_.mesh, member_, foundation_, fraction));
+  }
+  [[nodiscard]] Values at(double fraction, const MeshPlace& place) const;
+  [[nodiscard]] double length() const { return structure_.axes[static_cast<std::size_t>(member_)]->length(); }
+  /// @brief Extremes of the reaction along the range.
+  /// @param known its values at places, ascending
+  [[nodiscard]] PeakRange peaks(const FoundationState& known) const;
+
+ private:
+  [[nodiscard]] bool touches(double s) const {
+    return std::any_of(contact_.begin(), contact_.end(),
+                       [s](const auto& zone) { return zone[0] <= s && s <= zone[1]; });
+  }
+
+  const Structure& structure_;
+  const Eigen::VectorXd& y_;
+  const Foundation& foundation_;
+  int member_;
+  const FoundationLaw& law_;
+  const std::vector<std::array<double, 2>>& contact_;
+};
+
+FoundationReader::Values FoundationReader::at(double fraction, const MeshPlace& place) const {
+  const auto u = ElementReader(structure_, y_, place.element, law_).displacement(place.xi);
+  const Law acting = law_on(structure_, law_, place.element).at(fraction);
+  double beyond = law_.penetration(place_on_axis(structure_, place.element, place.xi), {u[0], u[1]}).depth;
+  // beside contact the surface of a shear layer lies deeper than the member
+  const bool is_apart = law_.has_layer() && !touches(fraction * length());
+  const double reaction = is_apart ? 0.0 : acting.reaction_beyond(beyond);
+  // displacement of the base's surface by its given stiffness, where the element has a bounded one
+  if (law_.law.one_sided && beyond > 0.0 && acting.stiffness > 0.0)
+    beyond *= acting.stiffness / law_.at(fraction).stiffness;
+  const double w = law_.surface ? beyond : acting.gap + beyond;
+  return {in_users_sense(law_.sense, structure_.scales.line_load() * reaction),
+          in_users_sense(law_.sense, structure_.scales.length * w)};
+}
+
+PeakRange FoundationReader::peaks(const FoundationState& known) const {
+  PeakSearch<1> search;
+  const auto known_values = [&known](std::size_t i) { return std::array{known.reaction[i]}; };
+  const auto values_at = [this](double s) { return std::array{at(s / length()).reaction}; };
+  const Mesh& mesh = structure_.mesh;
+  const auto& range = foundation_.range;
+  const double L = length();
+  std::vector<double> ends{L * range[0], L * range[1]};
+  for (int e = mesh.first[static_cast<std::size_t>(member_)];
+       e < mesh.first[static_cast<std::size_t>(member_) + 1]; ++e)
+    ends.push_back(L * mesh.elements[static_cast<std::size_t>(e)].to);
+  for (const auto& zone : contact_) ends.insert(ends.end(), zone.begin(), zone.end());
+  std::erase_if(ends, [&](double s) { return s < L * range[0] || s > L * range[1]; });
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    if (ends[k + 1] - ends[k] > kOnePlace * L)
+      search.add_piece(known.s, known_values, {ends[k], values_at(ends[k])},
+                       {ends[k + 1], values_at(ends[k + 1])}, values_at);
+  search.refine(values_at);
+  return search.range(0, values_at);
+}
+
 FoundationState foundation_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                                  int index, int points) {
-  const Foundation& foundation = model.foundations[index];
-  const int member = index_of(model.members, foundation.member);
-  const AxisCurve& axis = *structure.axes[member];
-  const FoundationLaw& law = structure.foundation_laws[index];
+  const Foundation& foundation = model.foundations[static_cast<std::size_t>(index)];
   FoundationState out;
   out.id = foundation.id;
   out.contact = contact_intervals(structure, model, y, index);
-  const auto touches = [&out](double s) {
-    return std::any_of(out.contact.begin(), out.contact.end(),
-                       [s](const auto& zone) { return zone[0] <= s && s <= zone[1]; });
-  };
+  const FoundationReader reader(structure, model, y, index, out.contact);
   for (int i = 0; i < points; ++i) {
     const double fraction =
         foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
-    const MeshPlace place = place_under(structure.mesh, member, foundation, fraction);
-    const auto u = ElementReader(structure, y, place.element, law).displacement(place.xi);
-    // results use the user's sign: a pushing medium has a positive reaction, a pulling one a negative
-    const Law acting = law_on(structure, law, place.element).at(fraction);
-    double beyond = law.penetration(place_on_axis(structure, place.element, place.xi), {u[0], u[1]}).depth;
-    // beside contact the surface of a shear layer lies deeper than the member
-    const bool is_apart = law.has_layer() && !touches(fraction * axis.length());
-    const double reaction = is_apart ? 0.0 : acting.reaction_beyond(beyond);
-    // displacement of the base's surface by its given stiffness, where the element has a bounded one
-    if (law.law.one_sided && beyond > 0.0 && acting.stiffness > 0.0)
-      beyond *= acting.stiffness / law.at(fraction).stiffness;
-    const double w = law.surface ? beyond : acting.gap + beyond;
-    out.s.push_back(fraction * axis.length());
-    out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));
-    out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));
+    const FoundationReader::Values values = reader.at(fraction);
+    out.s.push_back(fraction * reader.length());
+    out.reaction.push_back(values.reaction);
+    out.displacement.push_back(values.displacement);
   }
+  out.extremes = reader.peaks(out);
   return out;
 }
 
@@ -111,7 +248,8 @@ std::vector<MemberState> member_states(const Structure& structure, const Model& 
   std::vector<MemberState> out;
   const std::vector<LayerState> layers = layer_states(structure, y);
   for (std::size_t m = 0; m < model.members.size(); ++m)
-    out.push_back(member_state(structure, model, y, lambda, layers, static_cast<int>(m), points));
+    out.push_back(member_state(MemberReader(structure, model, y, lambda, layers, static_cast<int>(m)),
+                               structure, model.members[m].id, points));
   const auto state_of = [&](std::size_t spring) { return rod_state(structure, model, spring, y, points); };
   insert_rods(model.springs, state_of, out);
   return out;

@@ -23,6 +23,38 @@ Request some_request() {
   return request;
 }
 
+State full_state() {
+  State state;
+  state.load_factor = 66.25;
+  state.refinements = 2;
+  const Peak low{-1.5, 0.25};
+  const Peak high{2.5, 0.5};
+  state.members = {{"m",
+                    {0.0},
+                    {1.0},
+                    {2.0},
+                    {3.0},
+                    {4.0},
+                    {5.0},
+                    {6.0},
+                    {7.0},
+                    {8.0},
+                    {9.0},
+                    {10.0},
+                    {{low, high}, {low, low}, {high, high}, high}}};
+  state.supports = {{"a", 1.0, 2.0, 3.0}};
+  state.springs = {{"k", -0.5, -0.25, true, {1.5, 2.5, 3.5}}};
+  state.foundations = {{"soil",
+                        {0.0, 1.0},
+                        {0.25, 0.0},
+                        {0.5, -0.5},
+                        {{0.0, 0.5}, {0.75, 1.0}},
+                        {0.5, 1.5, 2.5},
+                        {low, high}}};
+  state.loads = {4.5, 5.5, 6.5};
+  return state;
+}
+
 Result full_result() {
   Result r;
   r.summary = {66.25, CriticalType::bifurcation, 1e-5, "limit_points", "one limit point"};
@@ -58,20 +90,13 @@ Result full_result() {
                  {1.0, std::nullopt},
                  {{"soil", {1.0, 0.5}}},
                  {},
+                 {0},
+                 PathRates{{2.0, 1.5}, {{"crown", {-0.5, -0.75}}}},
                  "limit_points"},
-                {1, 0, {}, {}, {}, {}, {}, {}}};
+                {1, 0, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}};
   r.neutral_motion = {{0, 0.5, {}, {{"n", 0.0, 1.0, 0.25}}}};
   r.contact_events = {{1, "soil", true, 2.5, 0.5, 2, 1}};
-  State state;
-  state.load_factor = 66.25;
-  state.refinements = 2;
-  state.members = {{"m", {0.0}, {1.0}, {2.0}, {3.0}, {4.0}, {5.0}, {6.0}, {7.0}, {8.0}, {9.0}, {10.0}}};
-  state.supports = {{"a", 1.0, 2.0, 3.0}};
-  state.springs = {{"k", -0.5, -0.25, true, {1.5, 2.5, 3.5}}};
-  state.foundations = {
-      {"soil", {0.0, 1.0}, {0.25, 0.0}, {0.5, -0.5}, {{0.0, 0.5}, {0.75, 1.0}}, {0.5, 1.5, 2.5}}};
-  state.loads = {4.5, 5.5, 6.5};
-  r.states = {state};
+  r.states = {full_state()};
   r.static_table =
       StaticTable{{0.5, 1.0}, {{"crown", {0.0, -0.25}}}, {0, {}}, {{"soil", {1.0, 0.5}}}, {{}, 0}};
   r.not_reached = {2.0};
@@ -117,28 +142,28 @@ TEST(WriteResult, EveryFieldOfTheContract) {
     "branches": [
       {"id": 0, "parent": null, "load_factor": [0.0, 1.0], "arc_length": [0.0, 0.5],
        "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "stiffness_ratio": [1.0, null], "contact_fraction": {"soil": [1.0, 0.5]},
-       "termination": "limit_points"},
-      {"id": 1, "parent": 0, "load_factor": [], "arc_length": [], "monitors": {}, "negative_eigenvalues": [], "stiffness_ratio": [],
-       "contact_fraction": {}, "termination": ""}],
+       "computed": [0], "rates": {"load_factor": [2.0, 1.5], "monitors": {"crown": [-0.5, -0.75]}}, "termination": "limit_points"},
+      {"id": 1, "parent": 0, "load_factor": [], "arc_length": [], "monitors": {}, "negative_eigenvalues": [], "stiffness_ratio": [], "contact_fraction": {}, "termination": ""}],
     "neutral_motion": [{"branch": 0, "from": 0.5, "to": null, "nodes": {"n": {"u": 0.0, "v": 1.0, "rotation": 0.25}}}],
     "contact_events": [{"branch": 1, "id": "soil", "type": "opened", "load_factor": 2.5, "arc_length": 0.5,
                         "zones_before": 2, "zones_after": 1}],
     "states": [{"branch": 0, "load_factor": 66.25, "refinements": 2,
       "members": {"m": {"s": [0.0], "x0": [1.0], "y0": [2.0], "x": [3.0], "y": [4.0], "u": [5.0], "v": [6.0],
-        "rotation": [7.0], "axial_force": [8.0], "shear_force": [9.0], "bending_moment": [10.0]}},
+        "rotation": [7.0], "axial_force": [8.0], "shear_force": [9.0], "bending_moment": [10.0],
+        "extremes": {"axial_force": {"min": {"value": -1.5, "s": 0.25}, "max": {"value": 2.5, "s": 0.5}}, "shear_force": {"min": {"value": -1.5, "s": 0.25}, "max": {"value": -1.5, "s": 0.25}},
+                     "bending_moment": {"min": {"value": 2.5, "s": 0.5}, "max": {"value": 2.5, "s": 0.5}}, "displacement": {"max": {"value": 2.5, "s": 0.5}}}}},
       "supports": {"a": {"fx": 1.0, "fy": 2.0, "moment": 3.0}},
       "springs": {"k": {"force": -0.5, "displacement": -0.25, "closed": true,
                         "resultant": {"fx": 1.5, "fy": 2.5, "moment": 3.5}}},
       "foundations": {"soil": {"s": [0.0, 1.0], "reaction": [0.25, 0.0], "displacement": [0.5, -0.5],
-        "contact": [[0.0, 0.5], [0.75, 1.0]], "resultant": {"fx": 0.5, "fy": 1.5, "moment": 2.5}}},
+        "contact": [[0.0, 0.5], [0.75, 1.0]], "resultant": {"fx": 0.5, "fy": 1.5, "moment": 2.5}, "extremes": {"min": {"value": -1.5, "s": 0.25}, "max": {"value": 2.5, "s": 0.5}}}},
       "loads": {"fx": 4.5, "fy": 5.5, "moment": 6.5}}],
     "static": {"load_factor": [0.5, 1.0], "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, null],
       "contact_fraction": {"soil": [1.0, 0.5]}, "state": [null, 0]},
     "not_reached": [2.0],
     "extremes": {"members": {"m": {
       "axial_force": {"min": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5}, "max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}},
-      "shear_force": {"min": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5},
-                      "max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}},
+      "shear_force": {"min": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}, "max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}},
       "bending_moment": {"min": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5},
                          "max": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5}},
       "displacement": {"max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}}}}},

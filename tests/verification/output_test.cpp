@@ -20,6 +20,7 @@ TEST(PathPoints, AreEvenlyAlongTheArcAndOnThePath) {
     Model model = arch(20.0, 420.0, 1.4);
     if (soil) add_soil(model, 1e5);
     Analysis analysis = path_on(fixed_mesh(8, 4), 2);
+    analysis.output.path_points = 2;
     const Result plain = solve_soundly(model, analysis);
     for (const int count : {2, 50, 400}) {
       analysis.output.path_points = count;
@@ -206,6 +207,34 @@ TEST(Extremes, AreThoseOfACantilever) {
   }
 }
 
+/// A beam with a span load and a force at a third: M and Q between and beside the four places of the lists.
+/// Its shear is q (L/2 - x) + 2 F / 3 before the force and F less beyond; M is largest where it is zero, or
+/// at F.
+TEST(Extremes, AreBetweenTheListedPlaces) {
+  constexpr double kSpan = 3.0;
+  constexpr double kLoad = 2.0;
+  for (const double force : {0.0, 0.9, 9.0}) {
+    Model model = straight(kSpan, 5.0, 1e4, "xy", "y");
+    model.loads = {DistributedLoad{"m", {0.0, -kLoad}}, force_at({"", "m", 1.0 / 3.0}, 0.0, -force)};
+    Analysis analysis = static_on(fixed_mesh(2, 4), Geometry::linear, {1.0});
+    analysis.output.states = StateOutput::all;
+    analysis.output.points_per_member = 4;
+    const Result result = solve_soundly(model, analysis);
+    const MemberPeaks& peaks = result.states.at(0).members.at(0).extremes;
+    const double left = kLoad * kSpan / 2.0 + 2.0 * force / 3.0;
+    const double right = left - force;
+    const double zero = right > kLoad * kSpan / 3.0 ? right / kLoad : std::min(left / kLoad, kSpan / 3.0);
+    const double moment = right > kLoad * kSpan / 3.0
+                              ? force * kSpan / 3.0 + right * zero - kLoad * zero * zero / 2.0
+                              : left * zero - kLoad * zero * zero / 2.0;
+    EXPECT_NEAR(std::max(peaks.bending_moment.max.value, -peaks.bending_moment.min.value), moment,
+                1e-6 * moment)
+        << force;
+    const double shear = std::max(left, kLoad * kSpan - right);
+    EXPECT_NEAR(std::max(peaks.shear_force.max.value, -peaks.shear_force.min.value), shear, 1e-6 * shear);
+  }
+}
+
 /// Up to the first critical load: those of a path that goes on are those of the one that ends there.
 TEST(Extremes, EndAtTheFirstCriticalLoad) {
   const Model model = arch(20.0, 420.0, 1.4);
@@ -221,8 +250,7 @@ TEST(Extremes, EndAtTheFirstCriticalLoad) {
   const Result all = solve_soundly(model, analysis);
   double largest = 0.0;
   for (const State& state : all.states)
-    for (std::size_t i = 0; i < state.members[0].s.size(); ++i)
-      largest = std::max(largest, std::hypot(state.members[0].u[i], state.members[0].v[i]));
+    largest = std::max(largest, state.members[0].extremes.displacement.value);
   EXPECT_EQ(all.extremes->at(0).displacement.value, largest) << "of returned states, wherever they are";
   EXPECT_GT(largest, 1.5 * moved.value);
   analysis.output.extremes = false;

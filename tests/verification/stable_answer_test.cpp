@@ -44,7 +44,8 @@ TEST(StiffnessRatio, OfAStraightColumnFallsLinearlyToItsEulerLoad) {
   const Result result = solve(column(0.0), path_to(0.95));
   const Branch& path = result.branches.at(0);
   ASSERT_GT(path.load_factor.size(), 2U);
-  for (std::size_t i = 0; i < path.load_factor.size(); ++i) {
+  for (const int row : path.computed) {
+    const auto i = static_cast<std::size_t>(row);
     ASSERT_TRUE(path.stiffness_ratio.at(i).has_value()) << i;
     EXPECT_NEAR(*path.stiffness_ratio[i], 1.0 - path.load_factor[i], kOfOneIteration) << path.load_factor[i];
   }

@@ -1,22 +1,30 @@
 """Drawings of results with matplotlib, which is imported when something is drawn."""
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple
+from functools import partial
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Tuple
 
 if TYPE_CHECKING:
     from ._result import Result
+    from .results import Branch
 
 _KINDS = ("path", "shape", "static", "buckling", "frequencies")
+_PARTS = 8  # straight lines that a cubic between two rows is drawn with
 
 
-def draw(result: "Result", kind: Optional[str], ax: Any) -> Any:
-    """Draws a result of one of _KINDS on the axes, or on new ones, which are given back."""
+def draw(result: "Result", kind: Optional[str], ax: Any, points: bool = False) -> Any:
+    """Draws a result of one of _KINDS on the axes, or on new ones, which are given back.
+
+    `points` marks each point of a path at which an equilibrium was solved.
+    """
     chosen = kind or _default_kind(result)
     if chosen not in _KINDS:
         raise ValueError(f"kind: {kind!r} is none of {', '.join(_KINDS)}")
     if ax is None:
         from matplotlib import pyplot
         _, ax = pyplot.subplots()
-    {"path": _path, "shape": _shape, "static": _static, "buckling": _buckling,
-     "frequencies": _frequencies}[chosen](result, ax)
+    drawings: Dict[str, Callable[["Result", Any], None]] = {
+        "path": partial(_path, points=points), "shape": _shape, "static": _static, "buckling": _buckling,
+        "frequencies": _frequencies}
+    drawings[chosen](result, ax)
     if result.model.title:
         ax.set_title(result.model.title, fontsize="medium", wrap=True)
     return ax
@@ -45,14 +53,44 @@ def _runs(counts: List[Optional[int]]) -> Iterator[Tuple[int, int, bool]]:
             first = at
 
 
-def _path(result: "Result", ax: Any) -> None:
+def _cubics(arcs: List[float], values: List[float], rates: List[float]) -> List[float]:
+    """Values of rows, and _PARTS - 1 values between neighbours on the cubic with the values and the rates of both."""
+    drawn = values[:1]
+    for at in range(1, len(values)):
+        length, rise = arcs[at] - arcs[at - 1], values[at] - values[at - 1]
+        begin, end = length * rates[at - 1] - rise, length * rates[at] - rise
+        for share in (part / _PARTS for part in range(1, _PARTS)):
+            drawn.append(values[at - 1] + share * (rise + (1 - share) * ((1 - share) * begin - share * end)))
+        drawn.append(values[at])
+    return drawn
+
+
+def _branch(branch: "Branch", monitor: Optional[str], ax: Any, points: bool) -> None:
+    """Draws a branch over a monitor, or over its arc length."""
+    arcs, rates = branch.arc_length, branch.rates
+    along = branch.monitors[monitor] if monitor else arcs
+    counts: List[Optional[int]] = list(branch.negative_eigenvalues)
+    if rates:  # a branch with rates has a row at each change of stability, and the row counts for what is beyond it
+        counts = counts[:1] + counts[:-1]
+    colour = None
+    for first, end, stable in _runs(counts):
+        rows = slice(first, end)
+        x, y = along[rows], branch.load_factor[rows]
+        if rates:
+            own = rates.monitors[monitor][rows] if monitor else [1.0] * len(x)
+            x, y = _cubics(arcs[rows], x, own), _cubics(arcs[rows], y, rates.load_factor[rows])
+        line, = ax.plot(x, y, "-" if stable else "--", color=colour)
+        colour = line.get_color()
+    if points:
+        computed = range(len(along)) if branch.computed is None else branch.computed
+        ax.plot([along[row] for row in computed], [branch.load_factor[row] for row in computed], ".", color=colour,
+                markersize=5)
+
+
+def _path(result: "Result", ax: Any, points: bool) -> None:
     monitor = next((name for branch in result.branches for name in branch.monitors), None)
     for branch in result.branches:
-        along = branch.monitors[monitor] if monitor else branch.arc_length
-        colour = None
-        for first, end, stable in _runs(list(branch.negative_eigenvalues)):
-            line, = ax.plot(along[first:end], branch.load_factor[first:end], "-" if stable else "--", color=colour)
-            colour = line.get_color()
+        _branch(branch, monitor, ax, points)
     marks = {"limit_max": "^", "limit_min": "v", "flutter": "X", "capacity": "_"}
     for point in result.critical_points:
         at = point.monitors[monitor] if monitor else point.arc_length

@@ -170,14 +170,15 @@ class Result(results.ResultFields):
             array[name] = values
         return array
 
-    def plot(self, kind: Optional[str] = None, ax: Any = None) -> Any:
+    def plot(self, kind: Optional[str] = None, ax: Any = None, points: bool = False) -> Any:
         """Draws with matplotlib and gives the axes back.
 
         `kind` is "path" (load factor over the first monitor, or over the arc length; dashed where it is unstable),
         "shape" (states over the unloaded axis), "static", "buckling" or "frequencies" (omega squared over the load
-        factor, open marks where a pair flutters); by default what the result has.
+        factor, open marks where a pair flutters); by default what the result has. `points` marks the points of a path
+        at which an equilibrium was solved.
         """
-        return _plot.draw(self, kind, ax)
+        return _plot.draw(self, kind, ax, points)
 
     def _repr_svg_(self) -> Optional[str]:
         """For notebooks: the drawing of libsnapthrough, where it is there; else notebooks show repr()."""

@@ -153,10 +153,8 @@ TEST(SectionsFigure, ExtremesAreThoseOfTheState) {
     double low = INFINITY;
     double high = -INFINITY;
     for (const auto& [id, member] : state.at("members").items()) {
-      for (const double value : member.at(field)) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
+      low = std::min(low, member.at("extremes").at(field).at("min").at("value").get<double>());
+      high = std::max(high, member.at("extremes").at(field).at("max").at("value").get<double>());
     }
     std::vector<double> written;
     for (const SvgElement& one : svg.elements()) {

@@ -83,6 +83,10 @@ inline void fill(std::string& value) { value = "\"a\n\xc3\xa4"; }
 inline void fill(std::vector<NamedValue>& values) { values = {{"crown", -1e-310}, {"tip", 1.0 / 3.0}}; }
 inline void fill(std::vector<NamedSeries>& series) { series = {{"tip", {1.0 / 3.0, -1e300}}}; }
 inline void fill(Frequencies& value) { value = {{1.0 / 3.0, -1e-310}, {0.0, 1e300}}; }
+inline void fill(PathRates& value) {
+  fill(value.load_factor.emplace_back());
+  fill(value.monitors);
+}
 template <class T>
 void fill(std::optional<T>& value) {
   fill(value.emplace());

@@ -38,7 +38,7 @@ TEST(StoppedAnalysis, APathKeepsThePointsBeforeTheStop) {
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->code, "cancelled");
   ASSERT_EQ(result.branches.size(), 1U);
-  EXPECT_EQ(result.branches[0].load_factor.size(), 4U);
+  EXPECT_EQ(result.branches[0].computed.size(), 4U);
 }
 
 /// A pinned column, whose buckling is solved by its differential equation unless a mesh is asked for.

@@ -186,6 +186,15 @@ MemberState sampled(std::vector<double> moment) {
     m.u.push_back(3.0 * moment[i]);
     m.v.push_back(4.0 * moment[i]);
   }
+  const auto [least, most] = std::ranges::minmax_element(moment);
+  const auto peak = [&](auto at, double factor) {
+    return Peak{factor * *at, static_cast<double>(at - moment.begin())};
+  };
+  const auto far = std::abs(*least) > std::abs(*most) ? least : most;
+  m.extremes = {{peak(most, -1.0), peak(least, -1.0)},
+                {},
+                {peak(least, 1.0), peak(most, 1.0)},
+                {5.0 * std::abs(*far), static_cast<double>(far - moment.begin())}};
   m.bending_moment = std::move(moment);
   return m;
 }

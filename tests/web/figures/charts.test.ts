@@ -44,8 +44,15 @@ function sectionsOf(name: string, state = 0): SectionsInput {
   return { model: request.model, state: must(result.states[state]) };
 }
 
+/** The state as earlier versions have it, without extremes between its places. */
+function listed(input: SectionsInput): SectionsInput {
+  const plain = <T extends object>(all: Record<string, T>) =>
+    Object.fromEntries(Object.entries(all).map(([id, one]) => [id, { ...one, extremes: undefined }]));
+  return { ...input, state: { ...input.state, members: plain(input.state.members), foundations: plain(input.state.foundations) } as typeof input.state };
+}
+
 test("sections show the largest and the smallest value of the state", () => {
-  const input = sectionsOf("ring");
+  const input = listed(sectionsOf("ring"));
   const state = must(input.state.members["ring"]);
   const texts = textsOf(sectionsFigure(input, { width: 900, height: 160 }));
   const lists = { N: state.axial_force, Q: state.shear_force, M: state.bending_moment, r: must(input.state.foundations["soil"]).reaction };
@@ -54,6 +61,26 @@ test("sections show the largest and the smallest value of the state", () => {
       if (Math.abs(value) < 0.03 * Math.max(...list.map(Math.abs))) continue;
       assert.ok(texts.includes(formatNumber(value)), `${name} ${formatNumber(value)}`);
     }
+  }
+});
+
+test("sections show extremes between the places of the state, and without them what the state lists", () => {
+  const input = sectionsOf("ring");
+  const state = must(input.state.members["ring"]);
+  const foundation = must(input.state.foundations["soil"]);
+  const largest = (list: readonly number[]): number => Math.max(...list.map(Math.abs));
+  const peaks = (list: readonly number[], s: readonly number[]) => ({
+    min: { s: (must(s[2]) + must(s[3])) / 2, value: -2 * largest(list) }, max: { s: (must(s[4]) + must(s[5])) / 2, value: 3 * largest(list) },
+  });
+  const extremes = {
+    axial_force: peaks(state.axial_force, state.s), shear_force: peaks(state.shear_force, state.s),
+    bending_moment: peaks(state.bending_moment, state.s), displacement: { max: { s: 0, value: 1 } },
+  };
+  const changed = { ...input.state, members: { ring: { ...state, extremes } },
+                    foundations: { soil: { ...foundation, extremes: peaks(foundation.reaction, foundation.s) } } };
+  const texts = textsOf(sectionsFigure({ ...input, state: changed }, { width: 900, height: 160 }));
+  for (const list of [state.axial_force, state.shear_force, state.bending_moment, foundation.reaction]) {
+    assert.ok(texts.includes(formatNumber(3 * largest(list))) && texts.includes(formatNumber(-2 * largest(list))));
   }
 });
 

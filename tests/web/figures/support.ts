@@ -28,6 +28,18 @@ export function readCase(name: string): Case {
   return { name, request: request as Request, result: result as Result };
 }
 
+/** A branch as earlier versions have it: its computed rows, without rates. */
+export function plainBranch(branch: Schemas["Branch"]): Schemas["Branch"] {
+  const { computed = branch.load_factor.map((_, i) => i), rates: _, ...rest } = branch;
+  const pick = <T>(list: readonly T[]): T[] => list.filter((_, i) => computed.includes(i));
+  const pickEach = (lists: Record<string, number[]>) => Object.fromEntries(Object.entries(lists).map(([id, list]) => [id, pick(list)]));
+  return {
+    ...rest, load_factor: pick(rest.load_factor), arc_length: pick(rest.arc_length), monitors: pickEach(rest.monitors),
+    negative_eigenvalues: pick(rest.negative_eigenvalues), stiffness_ratio: pick(rest.stiffness_ratio),
+    contact_fraction: pickEach(rest.contact_fraction), ...(rest.frequencies ? { frequencies: pick(rest.frequencies) } : {}),
+  };
+}
+
 export function readTable(name: string): Schemas["Table"] {
   return stored(name)["table"] as Schemas["Table"];
 }
@@ -69,17 +81,28 @@ export function textsOf(root: Shape): string[] {
   return [...shapesOf(root)].filter((node) => node.name === "text").map(textOf);
 }
 
-/** The corners of a path, piece by piece. */
+/** Points of a Bezier cubic without its first one; numbers are x and y of its inner points and of its end. */
+function bezierPoints(from: Pixel, numbers: readonly number[]): Pixel[] {
+  const along = (start: number, k: number, t: number): number => {
+    const [first, second, end] = [must(numbers[k]), must(numbers[k + 2]), must(numbers[k + 4])];
+    return (1 - t) ** 3 * start + 3 * (1 - t) ** 2 * t * first + 3 * (1 - t) * t ** 2 * second + t ** 3 * end;
+  };
+  return Array.from({ length: 32 }, (_, i) => (i + 1) / 32).map((t) => ({ x: along(from.x, 0, t), y: along(from.y, 1, t) }));
+}
+
+/** The corners of a path and points of its cubics, piece by piece. */
 export function piecesOf(node: Shape): Pixel[][] {
   const pieces: Pixel[][] = [];
-  const pattern = /([MLHV])(-?[\d.e-]+)(?: (-?[\d.e-]+))?/g;
-  for (const [, command, first, second] of String(node.attributes["d"]).matchAll(pattern)) {
+  for (const [, command, text = ""] of String(node.attributes["d"]).matchAll(/([MLHVC])([-\d.e ]+)/g)) {
     if (command === "M") pieces.push([]);
     const piece = must(pieces[pieces.length - 1]);
     const before = piece[piece.length - 1] ?? { x: 0, y: 0 };
-    if (command === "H") piece.push({ x: Number(first), y: before.y });
-    else if (command === "V") piece.push({ x: before.x, y: Number(first) });
-    else piece.push({ x: Number(first), y: Number(second) });
+    const numbers = text.split(" ").map(Number);
+    const [first = Number.NaN, second = Number.NaN] = numbers;
+    if (command === "H") piece.push({ x: first, y: before.y });
+    else if (command === "V") piece.push({ x: before.x, y: first });
+    else if (command === "C") piece.push(...bezierPoints(before, numbers));
+    else piece.push({ x: first, y: second });
   }
   return pieces;
 }

@@ -2,6 +2,7 @@
 // them by undeformed arc length, left normals. Model axes: x to the right, y up, angles counter-clockwise.
 
 import type { components } from "../api/types";
+import { valueBetween } from "./cubic";
 
 type Schemas = components["schemas"];
 export type Member = Schemas["Member"];
@@ -41,13 +42,14 @@ export function intervalOf(list: readonly number[], value: number): number {
   return low;
 }
 
-/** Linear interpolation of values over an increasing list; beyond its ends the end values. */
-export function interpolate(s: readonly number[], values: readonly number[], where: number): number {
+/** Values between those of an increasing list: cubic where they have `rates` by the list, else linear; beyond its ends the end values. */
+export function interpolate(s: readonly number[], values: readonly number[], where: number, rates: readonly number[] = []): number {
   if (s.length < 2) return at(values, 0);
   const i = intervalOf(s, where);
   const step = at(s, i + 1) - at(s, i);
   const t = step > 0 ? Math.min(1, Math.max(0, (where - at(s, i)) / step)) : 0;
-  return at(values, i) + t * (at(values, i + 1) - at(values, i));
+  const knot = (k: number) => ({ value: at(values, k), rate: at(rates, k) });
+  return valueBetween(knot(i), knot(i + 1), step, t);
 }
 
 /** Unit left normals of a line through points: its tangent turned by +90 degrees. */

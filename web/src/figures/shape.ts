@@ -46,16 +46,25 @@ export function line(className: string, from: Pixel, to: Pixel): Shape {
   });
 }
 
+/** A point of a line; with `inner` a Bezier cubic with these inner points leads to it, else a straight line. */
+export interface LinePoint extends Pixel {
+  inner?: readonly [Pixel, Pixel];
+}
+
+function pair({ x, y }: Pixel): string {
+  return `${coordinate(x)} ${coordinate(y)}`;
+}
+
 /** The `d` of a path through points; what is not finite breaks the line. */
-export function pathData(points: readonly Pixel[], closed = false): string {
+export function pathData(points: readonly LinePoint[], closed = false): string {
   let text = "";
   let pen = false;
-  for (const { x, y } of points) {
-    if (!Number.isFinite(x) || !Number.isFinite(y)) {
+  for (const point of points) {
+    if (!Number.isFinite(point.x) || !Number.isFinite(point.y)) {
       pen = false;
       continue;
     }
-    text += `${pen ? "L" : "M"}${coordinate(x)} ${coordinate(y)}`;
+    text += pen && point.inner ? `C${point.inner.map(pair).join(" ")} ${pair(point)}` : `${pen ? "L" : "M"}${pair(point)}`;
     pen = true;
   }
   return closed && text !== "" ? `${text}Z` : text;

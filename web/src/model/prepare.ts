@@ -2,10 +2,9 @@
 
 import type { Branch, Model, RequestDocument, Result } from "../api/documents";
 
-const kPathPoints = 80;      // of each path, for a smooth curve
 const kLiveStates = 8;       // of a path while a slider is dragged
 const kModes = 6;            // of a buckling analysis
-const kStations = 24;        // of each path that can be walked to
+const kStations = 24;        // of each path that can be walked to; its curve is drawn by cubics between its rows
 const kShapePoints = 96;     // of all members together in one state
 const kLivePoints = 50;
 const kLeastPoints = 15;     // of each member
@@ -33,7 +32,7 @@ export function forPictures(request: RequestDocument, steps: number | null, live
   switch (request.analysis.type) {
     case "path": {
       const every = Math.max(1, Math.round((steps ?? kLiveStates) / kLiveStates));
-      const along = Math.max(kPathPoints, request.analysis.output?.path_points ?? 0);
+      const along = Math.max(kStations, request.analysis.output?.path_points ?? 0);
       return {
         model: withMonitor(request.model),
         analysis: { ...request.analysis, output: { ...output, states: { every }, path_points: along } },

@@ -278,15 +278,19 @@ function useFrequencies(result: PathResult, size: Size | null): { there: boolean
   return { there, shown, chart, path: !shown ? size : roomy ? half : null, toggle: () => setWanted(!shown) };
 }
 
-function PathMenu({ name, input, take, twin, toggle }: {
-  name: string; input: PathInput; take: () => ReturnType<typeof pathFigure>; twin: boolean; toggle: () => void;
+function PathMenu({ name, input, take, twin, toggle, togglePoints }: {
+  name: string; input: PathInput; take: () => ReturnType<typeof pathFigure>; twin: boolean; toggle: () => void; togglePoints: () => void;
 }) {
+  // The rows of a static analysis are always marked.
+  const points = twin || input.result.branches.length === 0 ? []
+    : [{ text: input.points ? "Hide computed points" : "Show computed points", act: togglePoints }];
   const frequencies = hasFrequencies(input.result)
     ? [{ text: "CSV of frequencies", act: () => saveText(`${name}-frequencies.csv`, tableCsv(frequencyTable(input.result)), "text/csv") }]
     : [];
   return (
     <Menu label="Export" items={[
       { text: twin ? "Show the chart" : "Show as table", act: toggle },
+      ...points,
       { text: "SVG", act: () => saveSvg(`${name}-path.svg`, take()) },
       { text: "PNG", act: () => void savePng(`${name}-path.png`, take()) },
       { text: "CSV", act: () => saveText(`${name}-path.csv`, tableCsv(pathTable(input)), "text/csv") },
@@ -302,12 +306,13 @@ export function PathCard(props: PathProps) {
   const result: PathResult = growing ? { ...kNoResult, branches: growing.filter(Boolean) } : run?.result ?? kNoResult;
   const axes = useAxes(result);
   const stiffness = useStiffness(result);
+  const [points, setPoints] = useState(false);
   const frequencies = useFrequencies(result, size);
   const [playing, toggle] = usePlay(props);
   const input = useMemo<PathInput>(
     () => ({ result, x: axes.x, y: axes.y, shadows, monitors: run?.request.model.monitors ?? model.monitors, units: model.units,
-             stiffness: stiffness.shown }),
-    [result, nameOf(axes.x), nameOf(axes.y), shadows, model, stiffness.shown]);
+             stiffness: stiffness.shown, points }),
+    [result, nameOf(axes.x), nameOf(axes.y), shadows, model, stiffness.shown, points]);
   const station = run && !growing ? run.stations[stationFor(run, choice)] : undefined;
   const point = run && station ? rowOf(run, station) : null;
   const choose = (to: PathPoint): void => {
@@ -337,7 +342,8 @@ export function PathCard(props: PathProps) {
         {frequencies.there
           ? <button type="button" aria-pressed={frequencies.shown} onClick={frequencies.toggle}>Frequencies</button> : null}
         <button type="button" aria-pressed={playing} onClick={toggle}>{playing ? "Stop" : "Play"}</button>
-        <PathMenu name={name} input={input} take={take} twin={twin} toggle={() => setTwin(!twin)} />
+        <PathMenu name={name} input={input} take={take} twin={twin} toggle={() => setTwin(!twin)}
+                  togglePoints={() => setPoints(!points)} />
       </>
     ) : null}>
       {warned && run ? <NearlyUnstable run={run} marked={marked} onMark={onMark} /> : null}

@@ -2,7 +2,8 @@
 // Stable: no negative eigenvalue of the tangent stiffness (docs/results.md, branches).
 
 import type { components } from "../../api/types";
-import { at, interpolate } from "../geometry";
+import { valueBetween } from "../cubic";
+import { at, interpolate, type Point } from "../geometry";
 import { unitOf, withUnit, type Units } from "../numbers";
 
 type Schemas = components["schemas"];
@@ -42,12 +43,31 @@ export function branchesOf(result: PathResult): Branch[] {
   }];
 }
 
+function listOf(lists: Pick<Branch, "load_factor" | "monitors">, arcs: readonly number[], quantity: PathQuantity): readonly number[] {
+  if (quantity.kind === "load_factor") return lists.load_factor;
+  if (quantity.kind === "arc_length") return arcs;
+  const values = lists.monitors[quantity.id] ?? [];
+  return quantity.reversed ? values.map((value) => -value) : values;
+}
+
 /** The values of a quantity along a branch; an empty list when the branch has no such monitor. */
 export function valuesOf(branch: Branch, quantity: PathQuantity): readonly number[] {
-  if (quantity.kind === "load_factor") return branch.load_factor;
-  if (quantity.kind === "arc_length") return branch.arc_length;
-  const values = branch.monitors[quantity.id] ?? [];
-  return quantity.reversed ? values.map((value) => -value) : values;
+  return listOf(branch, branch.arc_length, quantity);
+}
+
+/** The rates of a quantity by arc length, one a row; an empty list when the branch has none. */
+function ratesOf(branch: Branch, quantity: PathQuantity): readonly number[] {
+  return branch.rates ? listOf(branch.rates, branch.arc_length.map(() => 1), quantity) : [];
+}
+
+/** A quantity at an arc length of a branch. */
+export function valueAlong(branch: Branch, quantity: PathQuantity, arc: number): number {
+  return interpolate(branch.arc_length, valuesOf(branch, quantity), arc, ratesOf(branch, quantity));
+}
+
+/** Indices of the rows at which an equilibrium was solved: all where the branch does not tell. */
+export function computedRows(branch: Pick<Branch, "load_factor" | "computed">): readonly number[] {
+  return branch.computed ?? branch.load_factor.map((_, row) => row);
 }
 
 /** A quantity at a critical point; NaN where the point has none. */
@@ -63,6 +83,8 @@ export interface Vertex {
   x: number;
   y: number;
   arc: number;
+  /** Rates of x and y by arc length; NaN where they are not known, and straight lines lead there. */
+  rate: Point;
   row: number | null;
   negative: number | null;
 }
@@ -76,13 +98,26 @@ export interface PathCurve {
   stable: Stability[];
 }
 
-function insertCritical(vertices: Vertex[], point: CriticalPoint, x: number, y: number): void {
+/** The place at a fraction of the arc length between two neighbours. */
+export function placeBetween(from: Vertex, to: Vertex, fraction: number): Point {
+  const along = (axis: "x" | "y"): number => valueBetween(
+    { value: from[axis], rate: from.rate[axis] }, { value: to[axis], rate: to.rate[axis] }, to.arc - from.arc, fraction);
+  return { x: along("x"), y: along("y") };
+}
+
+const kNoRate: Point = { x: Number.NaN, y: Number.NaN };
+
+/**
+ * Leaves the row at a critical point without its count, or inserts a vertex between rows. A curve of cubics has rows at all of its
+ * critical points; the others, of broken bifurcations, lie beside it.
+ */
+function insertCritical(vertices: Vertex[], point: CriticalPoint, x: number, y: number, cubics: boolean): void {
   const near = 1e-9 * Math.max(1e-30, vertices[vertices.length - 1]?.arc ?? 0);
   const found = vertices.findIndex((vertex) => vertex.arc >= point.arc_length - near);
   const after = vertices[found];
   if (!after) return;
   if (after.arc <= point.arc_length + near) after.negative = null;
-  else if (found > 0) vertices.splice(found, 0, { x, y, arc: point.arc_length, row: null, negative: null });
+  else if (found > 0 && !cubics) vertices.splice(found, 0, { x, y, arc: point.arc_length, rate: kNoRate, row: null, negative: null });
 }
 
 /** Stability of each piece from the rows at its ends; between two critical points it is that of the piece before. */
@@ -111,14 +146,15 @@ export function curveOf(result: PathResult, branch: Branch, index: number, x: Pa
   const ys = valuesOf(branch, y);
   const count = Math.min(xs.length, ys.length);
   if (count === 0) return null;
+  const [xRates, yRates] = [ratesOf(branch, x), ratesOf(branch, y)];
   const vertices: Vertex[] = [];
   for (let i = 0; i < count; ++i) {
-    vertices.push({ x: at(xs, i), y: at(ys, i), arc: at(branch.arc_length, i), row: i,
+    vertices.push({ x: at(xs, i), y: at(ys, i), arc: at(branch.arc_length, i), rate: { x: at(xRates, i), y: at(yRates, i) }, row: i,
                     negative: branch.negative_eigenvalues[i] ?? null });
   }
   for (const point of result.critical_points) {
     if (point.branch !== index || result.branches.length === 0) continue;
-    insertCritical(vertices, point, criticalValue(point, x), criticalValue(point, y));
+    insertCritical(vertices, point, criticalValue(point, x), criticalValue(point, y), branch.rates !== undefined);
   }
   const flutter = result.branches.length === 0 ? Infinity : flutterArc(result, index);
   const begin = flutter - 1e-9 * at(branch.arc_length, count - 1);
@@ -154,8 +190,7 @@ export function contactMarks(result: PathResult, x: PathQuantity, y: PathQuantit
   return result.contact_events.flatMap((event) => {
     const branch = result.branches[event.branch];
     if (!branch) return [];
-    const along = (quantity: PathQuantity) =>
-      interpolate(branch.arc_length, valuesOf(branch, quantity), event.arc_length);
+    const along = (quantity: PathQuantity) => valueAlong(branch, quantity, event.arc_length);
     const mark = { event, x: along(x), y: y.kind === "load_factor" ? event.load_factor : along(y) };
     return Number.isFinite(mark.x) && Number.isFinite(mark.y) ? [mark] : [];
   });

@@ -3,7 +3,7 @@
 import type { components } from "../../api/types";
 import { coordinate, figure, group, label, line, path, shape, type Pixel, type Shape, type Size } from "../shape";
 import { frameShapes, makeScale, place, plotArea, widened, type Frame } from "./axes";
-import type { Branch, PathResult, Result } from "./curves";
+import { computedRows, type Branch, type PathResult, type Result } from "./curves";
 import { legendHeight, legendShape, markEntries, type LegendEntry } from "./legend";
 import { mark } from "./marks";
 
@@ -92,9 +92,13 @@ interface Series {
   rows: Row[];
 }
 
-function rowsOf(table: Pick<Branch, "load_factor" | "frequencies">): Row[] {
-  return (table.frequencies ?? []).map((one, row) =>
-    ({ row, load: table.load_factor[row] ?? Number.NaN, motions: one ? motionsOf(one) : [] }));
+/** The computed rows of a branch or of a static analysis: others have no frequencies, and are no gaps. */
+function rowsOf(table: Pick<Branch, "load_factor" | "frequencies" | "computed">): Row[] {
+  const { load_factor: loads, frequencies = [] } = table;
+  return computedRows(table).filter((row) => row < frequencies.length).map((row) => {
+    const one = frequencies[row];
+    return { row, load: loads[row] ?? Number.NaN, motions: one ? motionsOf(one) : [] };
+  });
 }
 
 function seriesOf(result: FrequencySource): Series[] {

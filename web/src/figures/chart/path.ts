@@ -1,18 +1,18 @@
 // The equilibrium path: stable solid, unstable dashed, critical points and contact events as marks, other runs as shadows.
 
 import { Occupancy, placeLabel } from "../labels";
+import { intervalOf } from "../geometry";
 import { formatNumber, type Units } from "../numbers";
-import { coordinate, figure, group, label, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
+import { coordinate, figure, group, label, pathData, shape, type LinePoint, type Pixel, type Shape, type Size } from "../shape";
 import { frameShapes, makeScale, place, plotArea, widened, type Frame } from "./axes";
 import {
-  branchesOf, contactMarks, criticalMarks, curveOf, quantityLabel, type CriticalMark, type Monitor, type PathCurve,
-  type PathPoint, type PathQuantity, type PathResult, type Stability,
+  branchesOf, computedRows, contactMarks, criticalMarks, curveOf, placeBetween, quantityLabel, valueAlong, type CriticalMark,
+  type Monitor, type PathCurve, type PathPoint, type PathQuantity, type PathResult, type Stability, type Vertex,
 } from "./curves";
 import { legendHeight, legendShape, markEntries, type LegendEntry } from "./legend";
 import { kMarkNames, mark, type MarkKind } from "./marks";
 import {
-  hasStiffness, isUpward, kScaleRoom, softestPoint, stiffnessCurve, stiffnessLine, stiffnessScale, valueAlong,
-  type SoftestPoint, type StiffnessCurve,
+  hasStiffness, isUpward, kScaleRoom, softestPoint, stiffnessCurve, stiffnessLine, stiffnessScale, type SoftestPoint, type StiffnessCurve,
 } from "./stiffness";
 import { thinned } from "./thin";
 
@@ -41,6 +41,8 @@ export interface PathInput {
   shadows?: readonly PathShadow[] | undefined;
   /** Whether the stiffness ratio is drawn as a second curve; when left out, where the path has a softest point before its critical one. */
   stiffness?: boolean | undefined;
+  /** Whether each row at which an equilibrium was solved has a dot; those of a static analysis always do. */
+  points?: boolean | undefined;
   /** Ranges of both axes; what holds everything when left out. */
   domain?: { x: readonly [number, number]; y: readonly [number, number] } | null | undefined;
 }
@@ -119,16 +121,42 @@ function pixelOf(frame: Frame, point: { x: number; y: number }): Pixel {
   return { x: place(frame.x, point.x), y: place(frame.y, point.y) };
 }
 
+const kFlat = 0.05;  // pixels that the cubic between two vertices may be off the straight line that takes its place
+
+/**
+ * The inner points of the cubic from one vertex to the next one as a Bezier curve; null where a straight line is drawn. A cubic is
+ * off its chord by at most three quarters of what an inner point is off its place on the chord.
+ */
+function innerPoints(from: Vertex, to: Vertex, frame: Frame): [Pixel, Pixel] | null {
+  const third = (to.arc - from.arc) / 3;
+  const inner = ({ x, y, rate }: Vertex, step: number): Pixel => pixelOf(frame, { x: x + step * rate.x, y: y + step * rate.y });
+  const onChord = (fraction: number): Pixel =>
+    pixelOf(frame, { x: from.x + fraction * (to.x - from.x), y: from.y + fraction * (to.y - from.y) });
+  const [first, second] = [inner(from, third), inner(to, -third)];
+  const off = (point: Pixel, chord: Pixel): number => Math.hypot(point.x - chord.x, point.y - chord.y);
+  return 0.75 * Math.max(off(first, onChord(1 / 3)), off(second, onChord(2 / 3))) > kFlat ? [first, second] : null;
+}
+
+/** A line through vertices: cubics, and between them straight lines without the points that nobody sees. */
+function linePoints(vertices: readonly Vertex[], frame: Frame): LinePoint[] {
+  const runs: LinePoint[][] = [[]];  // each but the first begins with the end of a cubic, and goes on straight
+  vertices.forEach((vertex, i) => {
+    const before = vertices[i - 1];
+    const inner = before && innerPoints(before, vertex, frame);
+    const point = pixelOf(frame, vertex);
+    if (inner) runs.push([{ ...point, inner }]);
+    else runs[runs.length - 1]?.push(point);
+  });
+  return runs.flatMap((run) => thinned(run).flatMap((k) => run[k] ?? []));
+}
+
 /** Pieces of a curve of one stability as lines of pixels; neighbours share their end. */
-function pieces(curve: PathCurve, frame: Frame): { stable: Stability; points: Pixel[] }[] {
-  const all = curve.vertices.map((vertex) => pixelOf(frame, vertex));
-  const found: { stable: Stability; points: Pixel[] }[] = [];
+function pieces(curve: PathCurve, frame: Frame): { stable: Stability; points: LinePoint[] }[] {
+  const found: { stable: Stability; points: LinePoint[] }[] = [];
   let begin = 0;
   for (let i = 1; i <= curve.stable.length; ++i) {
     if (i < curve.stable.length && curve.stable[i] === curve.stable[begin]) continue;
-    const part = all.slice(begin, i + 1);
-    const kept = thinned(part).flatMap((k) => part[k] ?? []);
-    found.push({ stable: curve.stable[begin] ?? null, points: kept });
+    found.push({ stable: curve.stable[begin] ?? null, points: linePoints(curve.vertices.slice(begin, i + 1), frame) });
     begin = i;
   }
   return found;
@@ -143,7 +171,7 @@ function curveShapes(curves: readonly PathCurve[], frame: Frame, className: stri
   return curves.flatMap((curve) => {
     const kind = curve.branch === 0 ? className : `${className} branch`;
     return pieces(curve, frame).map(({ stable, points }) => {
-      taken.addLine(points, weight);
+      taken.addLine(points.flatMap((point) => [...(point.inner ?? []), point]), weight);
       return shape("path", { class: `${kind} ${stabilityClass(stable)}`, d: pathData(points) });
     });
   });
@@ -247,14 +275,13 @@ function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEn
 }
 
 /** The place of a curve at an arc length. */
-function placeAlong(curve: PathCurve, arc: number): { x: number; y: number } | undefined {
-  const { vertices } = curve;
-  const found = vertices.findIndex((vertex) => vertex.arc >= arc);
-  const after = vertices[found < 0 ? vertices.length - 1 : found];
-  const before = found > 0 ? vertices[found - 1] : after;
+function placeAlong({ vertices }: PathCurve, arc: number): { x: number; y: number } | undefined {
+  const i = intervalOf(vertices.map((vertex) => vertex.arc), arc);
+  const before = vertices[i];
+  const after = vertices[i + 1] ?? before;
   if (!after || !before) return undefined;
-  const share = after.arc > before.arc ? Math.min(1, (arc - before.arc) / (after.arc - before.arc)) : 1;
-  return { x: before.x + share * (after.x - before.x), y: before.y + share * (after.y - before.y) };
+  const length = after.arc - before.arc;
+  return placeBetween(before, after, length > 0 ? Math.min(1, Math.max(0, (arc - before.arc) / length)) : 1);
 }
 
 /** The ring around the chosen point; drawn alone where only the choice changes. */
@@ -267,13 +294,18 @@ export function chosenShape(chart: PathChart, chosen: ChosenPoint | null | undef
   return group("chosen", shape("circle", { class: "chosen-ring", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 6.5 }));
 }
 
-/** The rows of a static analysis, or of a few steps, as dots. */
-function rowDots(chart: PathChart, input: PathInput): Shape | null {
-  if (input.result.branches.length > 0) return null;
-  const rows = chart.curves.flatMap((curve) => curve.vertices);
-  if (rows.length > 200) return null;
-  return group("rows", ...rows.map((row) => pixelOf(chart.frame, row)).map((pixel) =>
-    shape("circle", { class: "row", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 2.5 })));
+/** The rows of a static analysis of few steps as dots, or on request the computed ones of every branch. */
+function rowDots({ frame, curves }: PathChart, { result, points }: PathInput): Shape | null {
+  const branches = branchesOf(result);
+  const dots = curves.flatMap(({ branch, vertices }) => {
+    const rows = branches[branch];
+    const computed = new Set(rows && computedRows(rows));
+    const pixels = vertices.filter(({ row }) => row !== null && computed.has(row)).map((vertex) => pixelOf(frame, vertex));
+    return pixels.filter((pixel) => inside(frame, pixel)).map(({ x, y }) =>
+      shape("circle", { class: branch === 0 ? "row" : "row branch", cx: coordinate(x), cy: coordinate(y), r: 2.5 }));
+  });
+  const shown = result.branches.length > 0 ? points : dots.length <= 200;
+  return shown ? group("rows", ...dots) : null;
 }
 
 /**

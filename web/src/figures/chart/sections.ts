@@ -6,6 +6,7 @@ import type { components } from "../../api/types";
 import { at, interpolate, last } from "../geometry";
 import { Occupancy, placeLabel, textWidth } from "../labels";
 import { formatNumber, formatWithUnit, unitOf, type Quantity, type Units } from "../numbers";
+import { withPeaks, type Line } from "../peaks";
 import { coordinate, figure, group, label, line, pathData, shape, type Anchor, type Pixel, type Shape, type Size } from "../shape";
 import { kBetweenTexts, makeScale, place, ticks, valueAt, type Scale } from "./axes";
 import { thinned } from "./thin";
@@ -38,13 +39,7 @@ export const kSections: Record<SectionQuantity, Described> = {
   reaction: { name: "base reaction r", unit: "line_load" },
 };
 
-/** Values along a member; lists of equal length. */
-interface Line {
-  s: readonly number[];
-  values: readonly number[];
-}
-
-/** The values of a quantity along a member, one line for each foundation with reactions. */
+/** The listed values of a quantity along a member, one line for each foundation with reactions. */
 export function sectionLines(input: SectionsInput, member: string, quantity: SectionQuantity): Line[] {
   const state = input.state.members[member];
   if (!state) return [];
@@ -58,6 +53,21 @@ export function sectionLines(input: SectionsInput, member: string, quantity: Sec
       return foundation.member === member && found ? [{ s: found.s, values: found.reaction }] : [];
     });
   }
+}
+
+const kPeaks = { N: "axial_force", Q: "shear_force", M: "bending_moment" } as const;
+
+/** The lines that are drawn: the listed values, with the extremes along the whole member. */
+export function drawnLines(input: SectionsInput, member: string, quantity: SectionQuantity): Line[] {
+  const lines = sectionLines(input, member, quantity);
+  if (quantity === "rotation") return lines;
+  if (quantity !== "reaction") {
+    const peaks = input.state.members[member]?.extremes?.[kPeaks[quantity]];
+    return lines.map((line) => withPeaks(line, peaks));
+  }
+  const states = (input.model.foundations ?? []).flatMap(({ id, member: own }) =>
+    (own === member ? input.state.foundations[id] ?? [] : []));
+  return lines.map((line, i) => withPeaks(line, states[i]?.extremes));
 }
 
 /** A panel: one quantity along all members. */
@@ -110,7 +120,7 @@ function extentOf(input: SectionsInput, ids: readonly string[], quantity: Sectio
   let low = 0;
   let high = 0;
   for (const id of ids) {
-    for (const { values } of sectionLines(input, id, quantity)) {
+    for (const { values } of drawnLines(input, id, quantity)) {
       for (const value of values) {
         low = Math.min(low, value);
         high = Math.max(high, value);
@@ -184,7 +194,7 @@ function extremesOf(chart: SectionsChart, input: SectionsInput, panel: SectionPa
   let low: Extreme = { at: { x: 0, y: 0 }, value: Infinity };
   let high: Extreme = { at: { x: 0, y: 0 }, value: -Infinity };
   for (const member of chart.members) {
-    for (const { s, values } of sectionLines(input, member.id, panel.quantity)) {
+    for (const { s, values } of drawnLines(input, member.id, panel.quantity)) {
       values.forEach((value, i) => {
         const spot = { at: { x: place(panel.x, member.from + at(s, i)), y: place(panel.y, value) }, value };
         if (value < low.value) low = spot;
@@ -201,7 +211,7 @@ function extremesOf(chart: SectionsChart, input: SectionsInput, panel: SectionPa
 function curveShapes(chart: SectionsChart, input: SectionsInput, panel: SectionPanel, taken: Occupancy): Shape[] {
   const zero = place(panel.y, 0);
   return chart.members.flatMap((member) =>
-    sectionLines(input, member.id, panel.quantity).flatMap(({ s, values }) => {
+    drawnLines(input, member.id, panel.quantity).flatMap(({ s, values }) => {
       const all = s.map((value, i) => ({ x: place(panel.x, member.from + value), y: place(panel.y, at(values, i)) }));
       const points = thinned(all).flatMap((i) => all[i] ?? []);
       const first = points[0];
@@ -269,7 +279,7 @@ function cursorShapes(chart: SectionsChart, input: SectionsInput, panel: Section
   if (!cursor || !member) return [];
   const x = place(panel.x, member.from + cursor.s);
   const shapes = [line("cursor-line", { x, y: panel.y.start }, { x, y: panel.y.end })];
-  for (const { s, values } of sectionLines(input, member.id, panel.quantity)) {
+  for (const { s, values } of drawnLines(input, member.id, panel.quantity)) {
     if (cursor.s < at(s, 0) || cursor.s > last(s)) continue;
     const value = interpolate(s, values, cursor.s);
     const spot = { x, y: place(panel.y, value) };

@@ -1,10 +1,13 @@
 // The stiffness ratio along the primary path against a scale of its own, and the softest point (docs/results.md, What can be
 // acted on): 1 without load, 0 where stability is lost.
 
-import { interpolate } from "../geometry";
+import { fractionAt } from "../cubic";
+import { at } from "../geometry";
 import { group, label, line, path, type Pixel, type Shape } from "../shape";
 import { makeScale, place, type Frame, type Scale } from "./axes";
-import { branchesOf, criticalValue, valuesOf, type Branch, type CriticalPoint, type PathQuantity, type PathResult } from "./curves";
+import {
+  branchesOf, criticalValue, valueAlong, valuesOf, type Branch, type CriticalPoint, type PathQuantity, type PathResult,
+} from "./curves";
 import { thinned } from "./thin";
 
 /** The softest point before the first loss of stability, where its ratio is not zero: a minimum between two rises. */
@@ -12,7 +15,7 @@ export interface SoftestPoint {
   loadFactor: number;
   /** Least stiffness there over that of the unloaded structure, more than 0. */
   ratio: number;
-  /** Arc length of the path where its load factor first comes to that one; between rows the path is taken as straight. */
+  /** Arc length of the path where its load factor first comes to that one. */
   arc: number;
 }
 
@@ -27,14 +30,14 @@ function firstLoss(result: PathResult): CriticalPoint | undefined {
 
 /** Arc length at which a branch first comes to a load factor; null where it does not. */
 function arcAtLoad(branch: Branch, load: number): number | null {
-  const { load_factor: loads, arc_length: arcs } = branch;
+  const { load_factor: loads, arc_length: arcs, rates } = branch;
+  const knot = (row: number) => ({ value: at(loads, row), rate: at(rates?.load_factor ?? [], row) });
   for (let i = 1; i < loads.length; ++i) {
-    const before = loads[i - 1] ?? 0;
-    const after = loads[i] ?? 0;
-    if ((before - load) * (after - load) > 0) continue;
-    const share = after === before ? 0 : (load - before) / (after - before);
-    const from = arcs[i - 1] ?? 0;
-    return from + share * ((arcs[i] ?? from) - from);
+    const before = knot(i - 1);
+    const after = knot(i);
+    if ((before.value - load) * (after.value - load) > 0) continue;
+    const length = at(arcs, i) - at(arcs, i - 1);
+    return at(arcs, i - 1) + length * fractionAt(before, after, length, load);
   }
   return null;
 }
@@ -53,11 +56,6 @@ export function hasStiffness(result: PathResult): boolean {
   return (branchesOf(result)[0]?.stiffness_ratio ?? []).some((ratio) => ratio !== null);
 }
 
-/** A quantity at an arc length of a branch. */
-export function valueAlong(branch: Branch, quantity: PathQuantity, arc: number): number {
-  return interpolate(branch.arc_length, valuesOf(branch, quantity), arc);
-}
-
 interface Sample {
   /** What the plot's axis has there. */
   value: number;
@@ -66,14 +64,17 @@ interface Sample {
   arc: number;
 }
 
-/** Ratios of the rows, of the softest point and of the first loss of stability, up to which they are shown. */
+/**
+ * Ratios of the rows, of the softest point and of the first loss of stability, up to which they are shown. A branch that tells which
+ * of its rows are computed has none in the others, and the line goes on past every row without a ratio.
+ */
 function samplesOf(result: PathResult, branch: Branch, quantity: PathQuantity): Sample[] {
   const values = valuesOf(branch, quantity);
   const samples = values.map((value, i): Sample =>
     ({ value, ratio: branch.stiffness_ratio[i] ?? Number.NaN, arc: branch.arc_length[i] ?? Number.NaN }));
   const loss = firstLoss(result);
   const softest = softestPoint(result);
-  const before = samples.filter(({ arc }) => !loss || arc < loss.arc_length);
+  const before = samples.filter(({ arc, ratio }) => (!loss || arc < loss.arc_length) && !(branch.computed && Number.isNaN(ratio)));
   if (softest) before.push({ value: valueAlong(branch, quantity, softest.arc), ratio: softest.ratio, arc: softest.arc });
   if (loss) before.push({ value: criticalValue(loss, quantity), ratio: 0, arc: loss.arc_length });
   return before.sort((a, b) => a.arc - b.arc);

@@ -57,6 +57,13 @@ function modeShapes(scene: Scene, view: View, taken: Occupancy): Shape | null {
   return modeGroup(lines);
 }
 
+/** Whether a member that carries a force of one sense alone carries none in the drawn state. */
+function isSlack(scene: Scene, id: string): boolean {
+  const member = scene.input.model.members.find((one) => one.id === id);
+  const state = scene.input.state?.members[id];
+  return (member?.reaction ?? "bilateral") !== "bilateral" && state !== undefined && state.axial_force[0] === 0;
+}
+
 /** The undeformed axes, and over them the deformed ones; both take room that labels keep away from. */
 function memberShapes(members: DrawnMember[], scene: Scene, view: View, taken: Occupancy): { still: Shape; moved: Shape } {
   const still: Shape[] = [];
@@ -73,7 +80,8 @@ function memberShapes(members: DrawnMember[], scene: Scene, view: View, taken: O
       taken.addLine(before, 8);
       still.push(path("undeformed", before));
     }
-    moved.push(path(scene.input.mode && !scene.deformed ? "undeformed" : "member", here));
+    const looks = isSlack(scene, member.id) ? "member slack" : "member";
+    moved.push(path(scene.input.mode && !scene.deformed ? "undeformed" : looks, here));
   }
   return { still: group("undeformed-members", ...still), moved: group("members", ...moved) };
 }

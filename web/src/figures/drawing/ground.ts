@@ -5,6 +5,7 @@
 import { at, interpolate, last, type Point } from "../geometry";
 import { placeLabel, type Occupancy } from "../labels";
 import { formatWithUnit, unitOf } from "../numbers";
+import { withPeaks } from "../peaks";
 import { coordinate, group, path, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
 import { largestForce, largestPressure } from "./loads";
 import { drawnLoadFactor, foundationsWithGround, toPixel, wayFrom, type DrawnMember, type Foundation, type Scene, type View } from "./scene";
@@ -165,7 +166,9 @@ function referenceReaction(scene: Scene): number {
     for (const force of forces) largest = Math.max(largest, (kRounding * Math.abs(force)) / scene.extent);
   }
   for (const { id } of foundationsWithGround(scene)) {
-    for (const value of scene.input.state?.foundations[id]?.reaction ?? []) largest = Math.max(largest, Math.abs(value));
+    const state = scene.input.state?.foundations[id];
+    const peaks = state?.extremes ? [state.extremes.min.value, state.extremes.max.value] : [];
+    for (const value of [...(state?.reaction ?? []), ...peaks]) largest = Math.max(largest, Math.abs(value));
   }
   return largest;
 }
@@ -181,10 +184,11 @@ interface Profile {
 function profileOf(scene: Scene, view: View, foundation: Foundation, member: DrawnMember, scale: number): Profile {
   const state = scene.input.state?.foundations[foundation.id];
   const profile: Profile = { base: [], tips: [], peak: 0, value: 0 };
-  state?.s.forEach((s, i) => {
+  const line = withPeaks({ s: state?.s ?? [], values: state?.reaction ?? [] }, state?.extremes);
+  line.s.forEach((s, i) => {
     const { into: d } = wayFrom(foundation, member, s);
     const p = { x: interpolate(member.s, member.x, s), y: interpolate(member.s, member.y, s) };
-    const value = at(state.reaction, i);
+    const value = at(line.values, i);
     if (Math.abs(value) > Math.abs(profile.value)) {
       profile.peak = i;
       profile.value = value;
