@@ -211,7 +211,7 @@ test('pictures, tables, request and result can be taken away', async () => {
   }
   const csv = (await take('.path-card', 'CSV')).bytes.toString().trim().split('\r\n');
   assert.match(csv[0], /^branch,load factor,arc length,/);
-  assert.ok(csv.length > 60);
+  assert.ok(csv.length > 24);  // so many points the page asks for, and a header
   const request = JSON.parse((await downloaded(page, () => page.getByRole('button', { name: 'Request' }).click())).bytes);
   const { examples } = await (await fetch(`${service.url}/v1/examples`)).json();
   assert.deepEqual(request, examples.find((one) => one.name === 'buried_pipe').request);
