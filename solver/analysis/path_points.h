@@ -23,7 +23,7 @@ struct ShownRange {
 struct PathRow {
   PathPoint point;       ///< its tangent is the rate by arc length, not of norm one
   bool computed = true;  ///< an equilibrium was solved there; false: read off the curve between two of them
-  std::optional<double> stiffness_ratio = {};  ///< as it was added
+  std::optional<double> stiffness_ratio = {};  ///< what add() was given
 };
 /// Receives rows in path order; may change what it is given.
 using RowVisitor = std::function<void(PathRow& row)>;
@@ -93,7 +93,7 @@ class PathPoints {
 
   std::vector<Accepted> accepted_;
   std::optional<double> visited_to_;  ///< arc length up to which rows were visited
-  ShownRange range_;                  ///< of all points so far
+  ShownRange range_;                  ///< range of all points so far
 };
 
 }  // namespace snapthrough

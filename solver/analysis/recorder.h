@@ -92,7 +92,7 @@ class Recorder final : public PathObserver {
   std::vector<StaticState> asked_states_;  ///< at asked load factors; rows: indices in the result
   std::vector<char> reached_;              ///< requested load factors whose states were recorded
   PathPoints kept_;                        ///< current branch of a path
-  int missing_rows_ = 0;                   ///< of that branch, see PathPoints
+  int missing_rows_ = 0;                   ///< missing points of that branch, see PathPoints
   int points_ = 0;
   int branch_ = 0;
   int branch_points_ = 0;  ///< reported on the current branch
