@@ -105,7 +105,7 @@ VectorXd PathCurve::value_at(const Place& place) const {
   return h.a * a.value + h.da * a.rate + h.b * b.value + h.db * b.rate;
 }
 
-/// Third derivative of a piece's cubic.
+/// Third derivative, by arc length, of the cubic between a node and the next one.
 VectorXd PathCurve::third(std::size_t piece) const {
   const Node& a = nodes_[piece];
   const Node& b = nodes_[piece + 1];

@@ -14,7 +14,7 @@
 
 namespace snapthrough {
 
-/// Least and largest load factor and shown values.
+/// Least and largest load factor and shown values of the points of a path that are known so far.
 struct ShownRange {
   Eigen::VectorXd least, most;
 };

@@ -8,7 +8,7 @@
 
 namespace snapthrough {
 
-/// @brief Extends extremes by those of one more state.
+/// @brief Extends the extremes that members have over several states by those of one more state.
 /// @param members same members in the same order at every call
 /// @param extremes one entry per member; empty before the first state
 void widen_extremes(const std::vector<MemberState>& members, int branch, double load_factor,

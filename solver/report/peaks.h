@@ -15,7 +15,7 @@
 
 namespace snapthrough {
 
-/// Numbers of the search; shares of the range of the sampled values.
+/// Numbers of the search. Differences of values are shares of the range of the sampled values.
 struct PeakLimits {
   static constexpr double doubt = 1e-4;  ///< difference of two parabolas that asks for a sample between
   static constexpr double reach = 3.0;   ///< an extreme beyond a parabola, over that difference

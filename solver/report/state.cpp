@@ -162,10 +162,7 @@ class FoundationReader {
   };
   /// Values at a fraction of the member, in the model's units and the user's sign: a pushing medium has a
   /// positive reaction, a pulling one a negative.
-  [[nodiscard]] Values at(double fraction) const {
-    return at(fraction, place_under(structure_.mesh, member_, foundation_, fraction));
-  }
-  [[nodiscard]] Values at(double fraction, const MeshPlace& place) const;
+  [[nodiscard]] Values at(double fraction) const;
   [[nodiscard]] double length() const { return structure_.axes[static_cast<std::size_t>(member_)]->length(); }
   /// @brief Extremes of the reaction along the range.
   /// @param known its values at places, ascending
@@ -185,7 +182,8 @@ class FoundationReader {
   const std::vector<std::array<double, 2>>& contact_;
 };
 
-FoundationReader::Values FoundationReader::at(double fraction, const MeshPlace& place) const {
+FoundationReader::Values FoundationReader::at(double fraction) const {
+  const MeshPlace place = place_under(structure_.mesh, member_, foundation_, fraction);
   const auto u = ElementReader(structure_, y_, place.element, law_).displacement(place.xi);
   const Law acting = law_on(structure_, law_, place.element).at(fraction);
   double beyond = law_.penetration(place_on_axis(structure_, place.element, place.xi), {u[0], u[1]}).depth;
