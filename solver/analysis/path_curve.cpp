@@ -112,20 +112,45 @@ VectorXd PathCurve::third(std::size_t piece) const {
   return third_derivative(VectorXd(b.value - a.value), a.rate, b.rate, length(piece));
 }
 
+/// Largest distance by which a piece's cubic goes beyond its ends along its chord, but at most the part of an
+/// estimated error along it, over the planes of the first component and each other one: where the path turns
+/// sharply at an end, a cubic leaves the curve in its own direction.
+double PathCurve::beyond_ends(std::size_t piece, const VectorXd& offset) const {
+  const VectorXd& first = nodes_[piece].value;
+  const VectorXd chord = nodes_[piece + 1].value - first;
+  double largest = 0.0;
+  for (const double fraction : {0.15, 0.3, 0.5, 0.7, 0.85}) {
+    const VectorXd away = value_at({piece, fraction}) - first;
+    for (Eigen::Index k = 1; k < chord.size(); ++k) {
+      const double size = std::hypot(chord[0], chord[k]);
+      const auto along = [&](const VectorXd& of) { return (of[0] * chord[0] + of[k] * chord[k]) / size; };
+      if (!(size > 0.0)) continue;
+      const double beyond = std::max(-along(away), along(away) - size);
+      largest = std::max(largest, std::min(beyond, std::abs(along(offset))));
+    }
+  }
+  return largest;
+}
+
 /// Estimated error of a piece's cubic across the curve: by its fourth derivative, the change of the third
 /// derivative from a neighbour to the piece. The larger one of both counts, of a neighbour that is too short
-/// to tell (both sides of a kink have one between them) the smaller one.
+/// to tell (both sides of a kink have one between them) the smaller one. The curve has the direction of the
+/// cubic's middle, and of the chord where a cubic that is far off turns back. What goes beyond the ends counts
+/// too.
 double PathCurve::error(std::size_t piece) const {
   const Node& a = nodes_[piece];
   const Node& b = nodes_[piece + 1];
   const double whole = length(piece);
   const VectorXd third = this->third(piece);
-  const VectorXd middle = (1.5 / whole) * (b.value - a.value) - 0.25 * (a.rate + b.rate);
+  const VectorXd chord = b.value - a.value;
+  const VectorXd middle = (1.5 / whole) * chord - 0.25 * (a.rate + b.rate);
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
   const auto beside = [&](std::size_t other) {
     const VectorXd fourth = (third - this->third(other)) / (0.5 * (whole + length(other)));
-    const double error = across(VectorXd(fourth * (std::pow(whole, 4) / 384.0)), middle);
+    const VectorXd offset = fourth * (std::pow(whole, 4) / 384.0);
+    const double error =
+        std::max({across(offset, middle), across(offset, chord), beyond_ends(piece, offset)});
     least = std::min(least, error);
     if (length(other) >= CurveLimits::short_piece * whole) most = std::max(most, error);
   };
@@ -176,11 +201,15 @@ std::optional<PathPoint> PathCurve::point_between(std::size_t piece) const {
       std::clamp(place / whole, CurveLimits::least_fraction, 1.0 - CurveLimits::least_fraction);
   if (auto point = checked(segment.point_at(fraction))) return point;
   if (!meeting) return std::nullopt;
+  // in the plane normal to the tangent: that normal to the chord may touch the path where it turns sharply
   const auto on_tangent = [&](const Node& from, double arc) {
     PathPoint guess = from.point;
     guess.y += arc * from.per_arc * from.point.tangent;
     guess.lambda += arc * from.per_arc * from.point.tangent_lambda;
-    return checked(segment.point_near(std::move(guess)));
+    const double size = std::hypot(from.point.tangent.norm(), from.point.tangent_lambda);
+    const Segment along(solver_, a.point, b.point, from.point.tangent / size,
+                        from.point.tangent_lambda / size);
+    return checked(along.point_near(std::move(guess)));
   };
   if (auto point = on_tangent(a, CurveLimits::before_meeting * place)) return point;
   return on_tangent(b, -CurveLimits::before_meeting * (whole - place));

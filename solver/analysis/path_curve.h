@@ -61,6 +61,7 @@ class PathCurve {
   void set_rate(PathPoint& point) const;
   [[nodiscard]] Eigen::VectorXd third(std::size_t piece) const;
   [[nodiscard]] Eigen::VectorXd value_at(const Place& place) const;
+  [[nodiscard]] double beyond_ends(std::size_t piece, const Eigen::VectorXd& offset) const;
   [[nodiscard]] double error(std::size_t piece) const;
   [[nodiscard]] bool split(std::size_t piece);
   [[nodiscard]] std::optional<double> meeting_place(std::size_t piece) const;

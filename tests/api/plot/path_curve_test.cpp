@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <vector>
 
 #include "api/plot/plot.h"
 #include "tests/api/plot/documents.h"
@@ -77,6 +78,28 @@ TEST(PathFigure, DrawsTheCubicsBetweenRows) {
   // 0.076
   EXPECT_LT(off_circle(half_circle(true)), 0.003);
   EXPECT_GT(off_circle(half_circle(false)), 0.05);
+}
+
+/// A railway track yields sideways ever further along its path, whose load turns at a minimum within a
+/// thousandth of its length: the cubics between rows do not turn back either.
+TEST(PathRows, CubicsBesideASharpTurnDoNotTurnBack) {
+  json request = testing::example_request("gallery/railway_track");
+  request["analysis"].erase("output");  // no corrected points in between
+  const json result = testing::solved(request);
+  const json& branch = result["branches"][0];
+  const auto arc = branch["arc_length"].get<std::vector<double>>();
+  const auto middle = branch["monitors"]["middle"].get<std::vector<double>>();
+  const auto rate = branch["rates"]["monitors"]["middle"].get<std::vector<double>>();
+  double largest = middle[0];
+  for (std::size_t i = 1; i < arc.size(); ++i) {
+    const double h = arc[i] - arc[i - 1];
+    for (const double t : {0.25, 0.5, 0.75, 1.0}) {
+      const double value = (1 + 2 * t) * (1 - t) * (1 - t) * middle[i - 1] + t * t * (3 - 2 * t) * middle[i] +
+                           h * t * (1 - t) * (1 - t) * rate[i - 1] + h * t * t * (t - 1) * rate[i];
+      ASSERT_GE(value, largest - 1e-3 * middle.back()) << "row " << i;
+      largest = std::max(largest, value);
+    }
+  }
 }
 
 TEST(PathFigure, MarksComputedRowsOnRequest) {
