@@ -313,11 +313,12 @@ void check_distinct(const SweepData& data, Report& report) {
 }
 
 void count_points(SweepData& data, std::uint64_t most, Report& report) {
+  const std::size_t refined = data.refine ? static_cast<std::size_t>(data.refine->parameters) : 0;
   data.points = data.design == SweepDesign::grid ? 1 : data.parameters[0].count();
   if (data.design == SweepDesign::latin_hypercube) {
     data.points = static_cast<std::uint64_t>(data.samples);
   }
-  for (std::size_t i = 0; i < data.parameters.size(); ++i) {
+  for (std::size_t i = 0; i + refined < data.parameters.size(); ++i) {
     const std::uint64_t count = data.parameters[i].count();
     if (data.design == SweepDesign::zip && count != data.points) {
       report.add("/parameters/" + std::to_string(i), "unequal_counts",
@@ -328,6 +329,12 @@ void count_points(SweepData& data, std::uint64_t most, Report& report) {
     if (data.design == SweepDesign::grid && data.points <= most) {
       data.points *= count;  // both factors are below 2^32
     }
+  }
+  const std::uint64_t rows_each = data.refine ? static_cast<std::uint64_t>(data.refine->most) : 1;
+  if (data.refine && data.points <= most && data.points * rows_each > most) {
+    report.add("/refine", "too_many_points",
+               std::to_string(data.points) + " curves or surfaces with up to " + std::to_string(rows_each) +
+                   " points each have more than " + std::to_string(most) + " points: lower most");
   }
   if (data.points > most) {
     const bool sampled = data.design == SweepDesign::latin_hypercube;

@@ -9,6 +9,7 @@
 
 #include "api/check_sweep.h"
 #include "api/json_text.h"
+#include "api/read_refine.h"
 #include "api/sweep.h"
 #include "api/sweep_data.h"
 #include "api/value.h"
@@ -302,6 +303,7 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
     check_outputs(*data, report);
   }
   read_follow(root, *data);
+  read_refine(root, *data);
   root.finish();
   if (report.findings().empty()) {
     check_distinct(*data, report);

@@ -79,7 +79,26 @@ Json document_with(const SweepData& data, const std::vector<Json>& values) {
 
 std::uint64_t Sweep::size() const { return data_->points; }
 
+std::uint64_t places_of_unit(const SweepData& data) {
+  std::uint64_t places = 1;
+  for (int i = data.refine ? data.refine->parameters : 0; i > 0; --i) {
+    places *= data.parameters[data.parameters.size() - static_cast<std::size_t>(i)].count();
+  }
+  return places;
+}
+
+std::uint64_t Sweep::places() const { return data_->points * places_of_unit(*data_); }
+
+bool Sweep::refines() const { return data_->refine.has_value(); }
+
+std::uint64_t Sweep::first_place(std::uint64_t outcome) const { return outcome * places_of_unit(*data_); }
+
 std::size_t Sweep::output_count() const { return data_->outputs.size(); }
+
+std::vector<std::string_view> Sweep::own_columns() const {
+  return refines() ? std::vector<std::string_view>{kPieceColumn, kChangeColumn}
+                   : std::vector<std::string_view>{};
+}
 
 std::vector<std::string> Sweep::columns() const {
   std::vector<std::string> names;
@@ -88,6 +107,9 @@ std::vector<std::string> Sweep::columns() const {
   }
   for (const SweepOutput& output : data_->outputs) {
     names.push_back(output.pointer);
+  }
+  for (const std::string_view name : own_columns()) {
+    names.emplace_back(name);
   }
   names.emplace_back("error");
   return names;
@@ -100,6 +122,7 @@ Sweep Sweep::for_table() const {
   data->samples = data_->samples;
   data->seed = data_->seed;
   data->outputs = data_->outputs;
+  data->refine = data_->refine;
   data->points = data_->points;
   return Sweep(std::move(data));
 }
@@ -204,7 +227,9 @@ void Sweep::spare_unused(Analysis& analysis) const {
     return one.tokens[0] == "critical_points" && (one.tokens.size() < 3 || one.tokens[2] == "mode");
   });
   output.extremes = output.extremes && looks_into("extremes");
-  if (!looks_into("states") && !looks_into("buckling", "modes") && !output.extremes && !output.modes) {
+  const bool tells_modes = refines() && analysis.type == AnalysisType::buckling;
+  if (!looks_into("states") && !looks_into("buckling", "modes") && !tells_modes && !output.extremes &&
+      !output.modes) {
     output.points_per_member = std::min(output.points_per_member, 2);
   }
 }

@@ -28,6 +28,7 @@ inline constexpr std::size_t kMaxSweepOutputs = 256;
 inline constexpr std::size_t kMaxOutputBytes = std::size_t{1} << 20;
 
 struct SweepData;
+struct SweepRow;
 
 /// Outcome of a point: outputs or a failure.
 struct PointOutcome {
@@ -38,6 +39,12 @@ struct PointOutcome {
   [[nodiscard]] bool failed() const { return !code.empty(); }
 };
 
+/// Numbers of rows.
+struct RowCounts {
+  std::uint64_t rows = 0;
+  std::uint64_t failed = 0;
+};
+
 /// @brief A sweep document without findings. Immutable, cheap to copy, thread-safe. Each point is built on
 /// request.
 class Sweep {
@@ -46,12 +53,24 @@ class Sweep {
 
   /// Returns the sweep document as read. Only files of api/ can use it: api/sweep_data.h defines SweepData.
   [[nodiscard]] const SweepData& data() const { return *data_; }
-  /// Returns the number of points, 1 to kMaxSweepPoints.
+  /// Returns the number of outcomes, 1 to kMaxSweepPoints: one for each point, or for each curve or surface
+  /// of a refined sweep.
   [[nodiscard]] std::uint64_t size() const;
+  /// Returns the number of points that have a request: size(), or all places that rows of a refined sweep can
+  /// have.
+  [[nodiscard]] std::uint64_t places() const;
+  /// Returns whether points are added over the last parameters (`refine`). An outcome is then that of a whole
+  /// curve or surface, with the rows that rows_of() returns.
+  [[nodiscard]] bool refines() const;
+  /// Returns the first point of an outcome. @pre outcome < size()
+  [[nodiscard]] std::uint64_t first_place(std::uint64_t outcome) const;
 
-  /// Returns the columns of a row in their order: parameter names, output pointers, "error".
+  /// Returns the columns of a row in their order: parameter names, output pointers, "piece" and "change" of a
+  /// refined sweep, "error".
   [[nodiscard]] std::vector<std::string> columns() const;
   [[nodiscard]] std::size_t output_count() const;
+  /// Returns the columns between the outputs and "error": "piece" and "change" of a refined sweep.
+  [[nodiscard]] std::vector<std::string_view> own_columns() const;
   /// Returns a copy for columns(), output_count() and labels(), without model and analysis, so that a table
   /// that is written over a long time holds less memory.
   [[nodiscard]] Sweep for_table() const;
@@ -78,6 +97,14 @@ class Sweep {
 
   /// Returns the request document of a point as text. @pre point < size()
   [[nodiscard]] std::string request_text(std::uint64_t point) const;
+
+  /// @brief Returns the rows of an outcome: the outcome itself, or all rows of a curve or surface
+  /// (api/sweep_data.h). @pre number < size()
+  [[nodiscard]] std::vector<SweepRow> rows_of(std::uint64_t number, const PointOutcome& outcome) const;
+  /// Returns the number of rows of an outcome, and of failed ones. @pre number < size()
+  [[nodiscard]] RowCounts row_counts(std::uint64_t number, const PointOutcome& outcome) const;
+  /// Returns what distinguishes a refined curve from other sweeps of its points, as text. @pre refines()
+  [[nodiscard]] std::string refinement_text() const;
 
   /// @brief Returns the number of consecutive points that are computed together as a unit: 1, or the length
   /// of a followed curve. Units begin at multiples of it.

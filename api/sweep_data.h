@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "api/sweep.h"
+
 namespace snapthrough::api {
 
 /// `count` numbers from `from` to `to` inclusive, with constant differences, or constant ratios if `log`. A
@@ -17,8 +19,9 @@ namespace snapthrough::api {
 struct SweepRange {
   double from = 0.0;
   double to = 0.0;
-  int count = 2;
+  int count = 2;  ///< in a refined range: all places that a row can have
   bool log = false;
+  int first_parts = 0;  ///< equal parts that a refined range begins with; 0: the range is not refined
 };
 
 /// A place in the request that a parameter writes; it receives value^power * scale, each factor only if
@@ -62,6 +65,19 @@ struct SweepFollow {
   bool locus = false;        ///< all curves of critical points, with their special points
 };
 
+/// Columns of a refined sweep after its outputs.
+inline constexpr std::string_view kPieceColumn = "piece";
+inline constexpr std::string_view kChangeColumn = "change";
+
+/// Points are added over the last one or two parameters until straight lines between rows are near enough.
+struct SweepRefine {
+  std::string output;  ///< pointer of the output that decides
+  double within = 0.01;
+  int parameters = 1;
+  int most = 0;            ///< largest number of points of a curve or surface
+  std::size_t number = 0;  ///< index of the output among those of the sweep
+};
+
 struct SweepData {
   nlohmann::json base;  ///< object with model and analysis
   std::vector<SweepParameter> parameters;
@@ -69,10 +85,23 @@ struct SweepData {
   int samples = 1;  ///< number of points of a Latin hypercube
   int seed = 0;     ///< seed of a Latin hypercube
   std::vector<SweepOutput> outputs;
-  bool follow = false;          ///< critical points are followed over the last parameter
-  SweepFollow followed;         ///< which ones, where `follow` is set
+  bool follow = false;   ///< critical points are followed over the last parameter
+  SweepFollow followed;  ///< which ones, where `follow` is set
+  std::optional<SweepRefine> refine;
   std::uint64_t unit_size = 1;  ///< number of points computed together
-  std::uint64_t points = 0;
+  std::uint64_t points = 0;     ///< points that are computed; with `refine`, the number of curves or surfaces
+};
+
+/// @brief Returns the number of points that a request can be built for: with `refine`, all places of each
+/// curve or surface. @pre the design is a grid, or there is no `refine`
+[[nodiscard]] std::uint64_t places_of_unit(const SweepData& data);
+
+/// A row of a table.
+struct SweepRow {
+  std::uint64_t point = 0;             ///< number of the point, less than Sweep::places()
+  std::vector<nlohmann::json> labels;  ///< parameters' values as a table shows them; null: of no single value
+  PointOutcome outcome;                ///< with Sweep::output_count() outputs, or failed
+  std::vector<nlohmann::json> own;     ///< values of Sweep::own_columns()
 };
 
 /// Returns the unescaped tokens of a JSON Pointer (RFC 6901); nullopt for invalid syntax.

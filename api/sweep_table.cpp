@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/csv_field.h"
+#include "api/sweep_data.h"
 
 namespace snapthrough::api {
 
@@ -103,84 +104,101 @@ std::size_t TableWriter::held_bytes() const {
   return sweep_.value_bytes() + runs_.capacity() * sizeof(runs_[0]);
 }
 
-void TableWriter::append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text) {
+void TableWriter::append_row(std::uint64_t number, const PointOutcome& outcome, std::string& text) {
+  for (const SweepRow& row : sweep_.rows_of(number, outcome)) {
+    append_one(row, text);
+  }
+}
+
+void TableWriter::append_one(const SweepRow& row, std::string& text) {
   switch (form_) {
     case TableForm::json:
       text += runs_.empty() ? "\n  " : ",\n  ";
-      append_json(point, outcome, text);
-      if (runs_.empty() || runs_.back().second != point) {
-        runs_.emplace_back(point, point);
+      append_json(row, text);
+      if (runs_.empty() || runs_.back().second != row.point) {
+        runs_.emplace_back(row.point, row.point);
       }
       ++runs_.back().second;
       break;
     case TableForm::csv:
-      append_csv(point, outcome, text);
+      append_csv(row, text);
       break;
     case TableForm::ndjson:
-      append_ndjson(point, outcome, text);
+      append_ndjson(row, text);
       break;
   }
 }
 
-void TableWriter::append_json(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
+void TableWriter::append_json(const SweepRow& row, std::string& text) const {
   text += '[';
-  for (const Json& value : sweep_.labels(point)) {
+  for (const Json& value : row.labels) {
     text += value.dump() + ",";
   }
-  if (outcome.failed()) {
+  if (row.outcome.failed()) {
     for (std::size_t i = 0; i < sweep_.output_count(); ++i) {
       text += "null,";
     }
-    text += dumped(error_of(outcome));
   } else {
-    text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without the brackets
-    text += ",null";
+    text.append(row.outcome.outputs, 1, row.outcome.outputs.size() - 2);  // without the brackets
+    text += ',';
   }
+  for (const Json& value : row.own) {
+    text += value.dump() + ",";
+  }
+  text += row.outcome.failed() ? dumped(error_of(row.outcome)) : "null";
   text += ']';
 }
 
-void TableWriter::append_csv(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
-  for (const Json& value : sweep_.labels(point)) {
+void TableWriter::append_csv(const SweepRow& row, std::string& text) const {
+  for (const Json& value : row.labels) {
     append_csv_value(value, text);
     text += ',';
   }
-  if (outcome.failed()) {
+  if (row.outcome.failed()) {
     text.append(sweep_.output_count(), ',');
-    append_csv_field(text, dumped(error_of(outcome)));
   } else {
-    for (const Json& value : Json::parse(outcome.outputs)) {
+    for (const Json& value : Json::parse(row.outcome.outputs)) {
       append_csv_value(value, text);
       text += ',';
     }
   }
+  for (const Json& value : row.own) {
+    append_csv_value(value, text);
+    text += ',';
+  }
+  if (row.outcome.failed()) {
+    append_csv_field(text, dumped(error_of(row.outcome)));
+  }
   if (links_) {
-    text += ',' + std::to_string(point) + ',';
-    append_csv_field(text, for_point(links_->request, point));
+    text += ',' + std::to_string(row.point) + ',';
+    append_csv_field(text, for_point(links_->request, row.point));
   }
   text += '\n';
 }
 
-void TableWriter::append_ndjson(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
+void TableWriter::append_ndjson(const SweepRow& row, std::string& text) const {
   std::size_t column = 0;
   const auto member = [&](const std::string& value) {
     text += (column == 0 ? "{" : ",") + keys_[column] + ":" + value;
     ++column;
   };
-  for (const Json& value : sweep_.labels(point)) {
+  for (const Json& value : row.labels) {
     member(value.dump());
   }
-  if (outcome.failed()) {
+  if (row.outcome.failed()) {
     for (std::size_t i = 0; i < sweep_.output_count(); ++i) {
       member("null");
     }
-    member(dumped(error_of(outcome)));
   } else {
-    for (const Json& value : Json::parse(outcome.outputs)) {
+    for (const Json& value : Json::parse(row.outcome.outputs)) {
       member(value.dump());
     }
-    member("null");
   }
-  member(std::to_string(point));
+  for (const Json& value : row.own) {
+    member(value.dump());
+  }
+  member(row.outcome.failed() ? dumped(error_of(row.outcome)) : "null");
+  member(std::to_string(row.point));
   text += "}\n";
 }
 

@@ -34,8 +34,8 @@ struct PointLinks {
 
 /// @brief Writes the rows of one sweep. Not thread-safe.
 ///
-/// The columns of JSON and NDJSON are Sweep::columns() and `point`, the point's number. With links, JSON has
-/// a member `links`, and CSV has the columns `point` and `request`.
+/// The columns of JSON and NDJSON are Sweep::columns() and `point`, the point's number (Sweep::places()).
+/// With links, JSON has a member `links`, and CSV has the columns `point` and `request`.
 class TableWriter {
  public:
   /// @param about members of the JSON document that tell what made it (provenance_members()); "": none
@@ -44,9 +44,10 @@ class TableWriter {
 
   /// Returns the text before the rows.
   [[nodiscard]] std::string head() const;
-  /// Appends the row of a point. @pre outcome.outputs is a JSON array of sweep.output_count() values, or
-  /// outcome.failed()
-  void append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text);
+  /// Appends the row of a point, or all rows of a curve or surface of a refined sweep.
+  /// @param number of the outcome, less than sweep.size()
+  /// @pre outcome is one of unit_outcomes()
+  void append_row(std::uint64_t number, const PointOutcome& outcome, std::string& text);
   /// @brief Appends at most about `bytes` of the text after the rows. Returns false at its end.
   /// @pre no row follows
   bool append_tail(std::string& text, std::size_t bytes = SIZE_MAX);
@@ -54,9 +55,10 @@ class TableWriter {
   [[nodiscard]] std::size_t held_bytes() const;
 
  private:
-  void append_json(std::uint64_t point, const PointOutcome& outcome, std::string& text) const;
-  void append_csv(std::uint64_t point, const PointOutcome& outcome, std::string& text) const;
-  void append_ndjson(std::uint64_t point, const PointOutcome& outcome, std::string& text) const;
+  void append_one(const SweepRow& row, std::string& text);
+  void append_json(const SweepRow& row, std::string& text) const;
+  void append_csv(const SweepRow& row, std::string& text) const;
+  void append_ndjson(const SweepRow& row, std::string& text) const;
 
   Sweep sweep_;
   TableForm form_;

@@ -12,36 +12,14 @@
 #include <utility>
 
 #include "api/names.h"
+#include "api/refined_unit.h"
+#include "api/solved_point.h"
 #include "api/sweep_data.h"
 #include "solver/sweep/critical_curve.h"
 #include "solver/sweep/critical_locus.h"
 
 namespace snapthrough::api {
 namespace {
-
-/// Returns all findings in one text.
-std::string sentence_of(const std::vector<Finding>& findings) {
-  std::string detail;
-  for (const Finding& finding : findings) {
-    detail += (detail.empty() ? "" : "; ") + finding.pointer + ": " + finding.detail;
-  }
-  return detail;
-}
-
-PointOutcome solved(const Sweep& sweep, const std::shared_ptr<const nlohmann::json>& document,
-                    const SolvePoint& solve, const Hooks& hooks) {
-  ReadOutcome read = read_request_document(document);
-  if (!read.request) {
-    return {"", "wrong_request", sentence_of(read.findings)};
-  }
-  sweep.spare_unused(read.request->analysis);
-  auto [result, seconds] = solve(read.request->model, read.request->analysis, hooks);
-  if (result.failure) {
-    return {"", result.failure->code, result.failure->detail};
-  }
-  sweep.drop_unused(result);
-  return sweep.outcome(write_result(*read.request, result, seconds, sweep.parts()));
-}
 
 /// Returns a model between points of a curve. @throws std::runtime_error when the request is invalid there
 Model model_between(const Sweep& sweep, std::uint64_t first, double value) {
@@ -193,9 +171,12 @@ std::vector<PointOutcome> outcomes_of(const Sweep& sweep, std::uint64_t unit, co
   if (sweep.follows()) {
     return followed(sweep, first, hooks.stop);
   }
+  if (sweep.refines()) {
+    return {refined_outcome(sweep, unit, solve, hooks, document)};
+  }
   sweep.write_document(first, document);
   std::vector<PointOutcome> alone;
-  alone.push_back(solved(sweep, document, solve, hooks));
+  alone.push_back(solved_point(sweep, document, solve, hooks));
   return alone;
 }
 

@@ -46,7 +46,8 @@ struct Written {
 
 /// Returns the ticks of an axis with their texts: numbers, or as many of the names as find room.
 std::vector<Written> written(const Scale& scale, const std::optional<std::vector<std::string>>& names,
-                             const std::optional<std::vector<double>>& values, double spacing) {
+                             const std::optional<std::vector<double>>& values, double spacing,
+                             double name_room) {
   std::vector<Written> all;
   if (!names) {
     for (const double value : values ? *values : ticks(scale, spacing)) {
@@ -59,7 +60,7 @@ std::vector<Written> written(const Scale& scale, const std::optional<std::vector
       static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(names->size()) / room)));
   for (std::size_t i = 0; i < names->size(); i += every) {
     const double width = std::abs(scale.end - scale.start) / room;
-    all.push_back({static_cast<double>(i), fitted((*names)[i], std::max(width, 40.0))});
+    all.push_back({static_cast<double>(i), fitted((*names)[i], std::max(width, name_room))});
   }
   return all;
 }
@@ -183,17 +184,18 @@ Range widened(const Range& range) {
 
 double room_for_numbers(const Frame& frame) {
   double widest = 0;
-  for (const auto& [value, text] : written(frame.y, frame.y_names, frame.y_values, kTickSpacingY)) {
+  for (const auto& [value, text] :
+       written(frame.y, frame.y_names, frame.y_values, kTickSpacingY, frame.y_name_room)) {
     widest = std::max(widest, text_width(text));
   }
   return std::max(62.0, widest + 34);
 }
 
 Shape frame_shape(const Frame& frame, Size size) {
-  const auto& [x, y, x_label, y_label, x_names, y_names, x_values, y_values] = frame;
+  const auto& [x, y, x_label, y_label, x_names, y_names, x_values, y_values, y_name_room] = frame;
   std::vector<Shape> shapes;
   double free_from = -1e9;
-  for (const auto& [value, text] : written(x, x_names, x_values, kTickSpacingX)) {
+  for (const auto& [value, text] : written(x, x_names, x_values, kTickSpacingX, 40)) {
     const double px = place(x, value);
     shapes.push_back(
         line(value == 0 && !x.log && !x_names ? "grid zero" : "grid", {px, y.start}, {px, y.end}));
@@ -203,7 +205,7 @@ Shape frame_shape(const Frame& frame, Size size) {
       free_from = px + half + 10;
     }
   }
-  for (const auto& [value, text] : written(y, y_names, y_values, kTickSpacingY)) {
+  for (const auto& [value, text] : written(y, y_names, y_values, kTickSpacingY, y_name_room)) {
     const double py = place(y, value);
     shapes.push_back(
         line(value == 0 && !y.log && !y_names ? "grid zero" : "grid", {x.start, py}, {x.end, py}));

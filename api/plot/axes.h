@@ -55,6 +55,7 @@ struct Frame {
   /// Values at which ticks stand; nullopt: ticks() chooses round values.
   std::optional<std::vector<double>> x_values;
   std::optional<std::vector<double>> y_values;
+  double y_name_room = 40;  ///< pixels; longer names of the y axis are cut
 };
 
 /// Returns the pixel of the point (x, y) in chart values.

@@ -33,6 +33,19 @@ struct ResultInput {
 /// Draws the undeformed structure with supports, springs, ground, loads and monitors. @pre input.model
 [[nodiscard]] Figure model_figure(const ResultInput& input, const PlotRequest& request, Size size);
 
+/// Draws the reaction of a spring or foundation over its displacement, by its law.
+/// @param model the model that has the spring or foundation; it need not be valid otherwise
+[[nodiscard]] Figure law_figure(const Field& model, const PlotRequest& request, Size size);
+
+/// @brief Draws circular frequencies over the load factor, each motion a line. A motion that diverges is
+/// below zero; the lines of a pair that flutters lie on one another, at the frequency of its growing
+/// vibration.
+[[nodiscard]] Figure frequencies_figure(const ResultInput& input, Size size);
+
+/// Draws the stiffness ratio along the primary path over the load factor, up to the first loss of stability,
+/// with the softest point and the critical points of that part of the path.
+[[nodiscard]] Figure stiffness_figure(const ResultInput& input, Size size);
+
 /// Draws an output over one parameter; crosses on the axis mark failed points.
 [[nodiscard]] Figure sweep_figure(const Field& document, const PlotRequest& request, Size size);
 

@@ -150,6 +150,7 @@ void set_frame(Map& map, Size size, double top) {
   };
   frame.y = cell_scale(map.y, map.ys, std::max(60.0, size.height - 44), top);
   frame.y_names = map.y.names;
+  frame.y_name_room = std::min(160.0, 0.2 * size.width);
   frame.y_values = few(map.y, map.ys);
   frame.y_label = map.y.label;
   frame.x_label = map.x.label;

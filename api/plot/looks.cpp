@@ -87,6 +87,8 @@ line, path { stroke-linecap: round; stroke-linejoin: round; }
 .series-5 .series-line { stroke: $moment; } .series-5 .series-dot { fill: $moment; }
 .series-1 .series-line { stroke-dasharray: 8 3; } .series-2 .series-line { stroke-dasharray: 3 3; }
 .series-3 .series-line { stroke-dasharray: 10 3 2 3; } .series-4 .series-line { stroke-dasharray: 1.5 4; }
+.break-mark { fill: $paper; stroke: $ink; stroke-width: 1.4; }
+.break-text { font-size: 12px; fill: $ink; }
 .failed { stroke: $moment; stroke-width: 1.8; }
 .failed-cell { fill: $neutralsoft; stroke: none; }
 .failed-hatch { stroke: $moment; stroke-width: 1; opacity: .8; }

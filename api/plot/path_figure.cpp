@@ -3,6 +3,7 @@
 #include <set>
 
 #include "api/plot/axes.h"
+#include "api/plot/chart_marks.h"
 #include "api/plot/figures.h"
 #include "api/plot/geometry.h"
 #include "api/plot/labels.h"
@@ -327,27 +328,6 @@ void draw_curve(const Curve& curve, const Frame& frame, Occupancy& taken, std::v
   }
 }
 
-struct PlacedMark {
-  Mark mark;
-  Pixel at;
-  std::vector<Run> runs;
-};
-
-struct Softest {
-  double load_factor = 0;
-  double ratio = 0;
-};
-
-std::optional<Softest> read_softest(const Field& result) {
-  const std::optional<Field> summary = result.find("summary");
-  const std::optional<Field> softest = summary ? summary->find("softest") : std::nullopt;
-  if (!softest) {
-    return std::nullopt;
-  }
-  const Softest found{softest->at("load_factor").number(), softest->at("stiffness_ratio").number()};
-  return found.ratio > 0 ? std::optional(found) : std::nullopt;  // ratio 0: a critical point
-}
-
 /// Returns the first point of a curve at a load factor; nullopt if there is none.
 std::optional<Pixel> first_at_load(const Curve& curve, const Frame& frame, double load) {
   for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
@@ -369,46 +349,16 @@ std::vector<PlacedMark> marks_of(const PathData& path, const ResultInput& input,
   for (const CriticalPoint& point : path.points) {
     const double x = value_of(point, path.x);
     if (std::isfinite(x)) {
-      marks.push_back(
-          {point.mark,
-           place(frame, x, point.load_factor),
-           {{format_number(point.load_factor, 5), "", true},
-            {std::string(mark_text(point.mark)) + (point.confirmed ? "" : ", not confirmed"), "muted"}}});
+      marks.push_back(placed_mark(point, place(frame, x, point.load_factor)));
     }
   }
   const std::optional<Softest> softest = read_softest(input.result);
   if (softest && !curves.empty() && curves.front().branch == 0) {
     if (const std::optional<Pixel> at = first_at_load(curves.front(), frame, softest->load_factor)) {
-      marks.push_back({Mark::softest,
-                       *at,
-                       {{format_number(softest->load_factor, 5), "", true},
-                        {"softest, ratio " + format_number(softest->ratio, 3), "muted"}}});
+      marks.push_back(placed_mark(*softest, *at));
     }
   }
   return marks;
-}
-
-/// Draws marks, then the labels that find room; the first label is drawn even over lines.
-void draw_marks(const std::vector<PlacedMark>& marks, Occupancy& taken, std::vector<Shape>& shapes) {
-  std::vector<Shape> drawn;
-  for (const PlacedMark& mark : marks) {
-    const auto [x, y] = mark.at;
-    taken.add_box({x - 11, y - 11, x + 11, y + 11}, 14);
-    taken.add_box({x - 4, y - 5, x + 4, y + 4}, 60);
-    drawn.push_back(mark_shape(mark.mark, mark.at));
-  }
-  std::vector<Shape> labels;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    LabelRequest wanted{marks[i].at, marks[i].runs, "mark-label", 14};
-    wanted.leader = true;
-    wanted.tolerance = i == 0 ? 400 : 110;
-    wanted.prefer = marks[i].mark == Mark::limit_min || marks[i].mark == Mark::softest ? 1 : 7;
-    if (std::optional<Shape> text = place_label(wanted, taken)) {
-      labels.push_back(std::move(*text));
-    }
-  }
-  shapes.push_back(group("marks", std::move(drawn)));
-  shapes.push_back(group("mark-labels", std::move(labels)));
 }
 
 /// Returns the abscissa of a curve at an arc length.
@@ -533,24 +483,8 @@ Frame frame_of(const ResultInput& input, const PathData& path, const std::vector
 }
 
 std::string description_of(const PathData& path, const std::vector<Curve>& curves) {
-  constexpr std::size_t kMost = 50;
-  std::string text = std::to_string(curves.size()) + (curves.size() == 1 ? " branch." : " branches.");
-  for (std::size_t i = 0; i < path.points.size() && i < kMost; ++i) {
-    text += std::string(" ") + mark_text(path.points[i].mark) + " at load factor " +
-            format_number(path.points[i].load_factor, 6) +
-            (path.points[i].confirmed ? "." : ", not confirmed.");
-  }
-  if (path.points.size() > kMost) {
-    text += " And " + std::to_string(path.points.size() - kMost) + " more critical points.";
-  }
-  return text;
-}
-
-/// Keeps labels off axis numbers and legend.
-void keep_margins(const Frame& frame, Size size, Occupancy& taken) {
-  taken.add_box({0, 0, size.width, frame.y.end - 4});
-  taken.add_box({0, 0, frame.x.start - 4, size.height});
-  taken.add_box({0, frame.y.start + 4, size.width, size.height});
+  return std::to_string(curves.size()) + (curves.size() == 1 ? " branch." : " branches.") +
+         points_text(path.points);
 }
 
 }  // namespace

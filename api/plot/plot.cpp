@@ -40,6 +40,21 @@ std::optional<Field> model_of(const nlohmann::json& document) {
                                                              : std::nullopt;
 }
 
+/// Returns the model whose laws are drawn: of the document, or of the request that gave a result.
+/// @throws PlotError when there is none
+Field law_model(const nlohmann::json& document, const PlotRequest& request) {
+  if (const std::optional<Field> model = model_of(document)) {
+    return *model;
+  }
+  if (request.solved_request != nullptr && document.is_object() && is_result(document)) {
+    return Field(*request.solved_request, PointerPath("request:")).at("model");
+  }
+  throw PlotError(
+      "",
+      "the document has no model with nodes, whose laws a figure of kind law draws: give a request or "
+      "a model, or a result with the request that was solved");
+}
+
 /// Whether a document is a model, with which nothing was computed and nothing is to be.
 bool is_model(const nlohmann::json& document) {
   return !is_table(document) && !is_result(document) && model_of(document).has_value();
@@ -59,7 +74,8 @@ void need_drawable(const nlohmann::json& document) {
     throw PlotError(
         sweep ? "/parameters" : "/analysis",
         std::string("the document is a request, not a result: solve it first, with snapthrough ") +
-            (sweep ? "sweep" : "solve") + ", or ask for the kind model, which draws its structure");
+            (sweep ? "sweep" : "solve") +
+            ", or ask for the kind model, which draws its structure, or the kind law");
   }
   if (!is_result(document) && !is_model(document)) {
     throw PlotError("",
@@ -89,6 +105,10 @@ PlotKind kind_of(const nlohmann::json& document, const PlotRequest& request) {
       throw PlotError("", "the document has no model with nodes, which a figure of kind model draws");
     }
     return PlotKind::model;
+  }
+  if (request.kind == PlotKind::law) {
+    (void)law_model(document, request);  // throws without a model
+    return PlotKind::law;
   }
   need_drawable(document);
   const PlotKind kind = request.kind ? *request.kind : default_plot_kind(document);
@@ -143,6 +163,12 @@ Figure figure_of(const plot::ResultInput& input, const PlotRequest& request, Plo
       return plot::mode_figure(input, request, size);
     case PlotKind::model:
       return plot::model_figure(input, request, size);
+    case PlotKind::law:
+      return plot::law_figure(input.result, request, size);
+    case PlotKind::frequencies:
+      return plot::frequencies_figure(input, size);
+    case PlotKind::stiffness:
+      return plot::stiffness_figure(input, size);
     case PlotKind::sweep:
       return plot::sweep_figure(input.result, request, size);
     case PlotKind::heatmap:
@@ -194,6 +220,8 @@ std::string svg_of(const nlohmann::json& document, const PlotRequest& request) {
   plot::ResultInput input{field, std::nullopt, plot::read_units(field)};
   if (kind == PlotKind::model) {
     input.model = plot::read_model(*model_of(document));
+  } else if (kind == PlotKind::law) {
+    input.result = law_model(document, request);
   } else if (request.solved_request != nullptr && !is_for_table(kind)) {
     input.model = plot::read_model(Field(*request.solved_request, PointerPath("request:")).at("model"));
   }

@@ -92,6 +92,7 @@ std::map<std::string_view, Take> takers(PlotRequest& request) {
           {"over_arc_length", yes_or_no(request.over_arc_length)},
           {"points", yes_or_no(request.points)},
           {"magnify", number_between(request.magnify, 1 / kLargestFactor, kLargestFactor)},
+          {"law", text(request.law)},
           {"output", text(request.output)},
           {"x", text(request.x)},
           {"by", text(request.by)},

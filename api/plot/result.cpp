@@ -238,6 +238,16 @@ std::vector<CriticalPoint> read_critical_points(const Field& result) {
   return points;
 }
 
+std::optional<Softest> read_softest(const Field& result) {
+  const std::optional<Field> summary = result.find("summary");
+  const std::optional<Field> softest = summary ? summary->find("softest") : std::nullopt;
+  if (!softest) {
+    return std::nullopt;
+  }
+  const Softest found{softest->at("load_factor").number(), softest->at("stiffness_ratio").number()};
+  return found.ratio > 0 ? std::optional(found) : std::nullopt;  // ratio 0: a critical point
+}
+
 std::vector<ContactEvent> read_contact_events(const Field& result) {
   std::vector<ContactEvent> events;
   const std::optional<Field> all = result.find("contact_events");
@@ -317,7 +327,11 @@ Mode read_mode(const Field& mode) {
 
 Units read_units(const Field& result) {
   const std::optional<Field> model = result.find("model");
-  const std::optional<Field> units = model ? model->find("units") : std::nullopt;
+  return model ? read_model_units(*model) : Units{};
+}
+
+Units read_model_units(const Field& model) {
+  const std::optional<Field> units = model.find("units");
   if (!units) {
     return {};
   }

@@ -43,6 +43,12 @@ struct CriticalPoint {
   std::optional<std::size_t> state;
 };
 
+/// Point of the primary path at which the structure is nearly unstable before its first critical point.
+struct Softest {
+  double load_factor = 0;
+  double ratio = 0;  ///< least stiffness there over that of the unloaded structure, more than 0
+};
+
 struct ContactEvent {
   std::size_t branch = 0;
   Mark mark = Mark::closed;
@@ -99,6 +105,9 @@ using Mode = std::map<std::string, ModeShape>;
 [[nodiscard]] std::vector<Branch> read_branches(const Field& result);
 /// Returns critical points in the order of the document.
 [[nodiscard]] std::vector<CriticalPoint> read_critical_points(const Field& result);
+/// Returns the softest point; nullopt where the stiffness has no minimum before it is zero, or without a
+/// path.
+[[nodiscard]] std::optional<Softest> read_softest(const Field& result);
 [[nodiscard]] std::vector<ContactEvent> read_contact_events(const Field& result);
 /// Returns one state. @throws PlotError when the result has no state of that index
 [[nodiscard]] State read_state(const Field& result, std::size_t index);
@@ -106,6 +115,8 @@ using Mode = std::map<std::string, ModeShape>;
 [[nodiscard]] std::size_t chosen_state(const Field& result, const std::optional<std::size_t>& asked);
 [[nodiscard]] Mode read_mode(const Field& mode);
 [[nodiscard]] Units read_units(const Field& result);
+/// Returns the unit labels of a model.
+[[nodiscard]] Units read_model_units(const Field& model);
 [[nodiscard]] std::string read_title(const Field& result);
 
 /// Sorts ids with numbers in numerical order: "m2" before "m10".

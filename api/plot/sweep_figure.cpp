@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "api/plot/axes.h"
@@ -8,6 +9,7 @@
 #include "api/plot/marks.h"
 #include "api/plot/numbers.h"
 #include "api/plot/sweep_axes.h"
+#include "api/plot/sweep_breaks.h"
 #include "api/plot/table.h"
 #include "solver/numeric/work_limit.h"
 
@@ -87,7 +89,7 @@ std::vector<LegendEntry> legend_of(const std::vector<Curve>& curves, const Colum
   return entries;
 }
 
-/// Returns path data of a curve, interrupted at rows without value and thinned between them.
+/// Returns path data of a curve, interrupted at points without place and thinned between them.
 std::string line_data(const std::vector<Pixel>& points, double tolerance) {
   std::string text;
   std::vector<Pixel> part;
@@ -106,17 +108,30 @@ std::string line_data(const std::vector<Pixel>& points, double tolerance) {
   return text;
 }
 
-Shape curve_shape(const Curve& curve, std::size_t number, bool crowded, const Frame& frame, const Column& x,
-                  const Column& y) {
+/// Returns where a row is drawn; no place where it has no value.
+Pixel place_of(const Frame& frame, const Column& x, const Column& y, std::size_t row) {
+  const bool shown = std::isfinite(y.values[row]) && !(frame.y.log && y.values[row] <= 0);
+  return shown ? place(frame, x.values[row], y.values[row]) : Pixel{0, kNone};
+}
+
+/// Draws a curve, interrupted between pieces, and adds its breaks.
+Shape curve_shape(const Curve& curve, std::size_t number, bool crowded, const Frame& frame,
+                  const Table& table, const Column& x, std::vector<SweepBreak>& breaks) {
   constexpr std::size_t kMostDots = 80;  // more dots overlap
   std::vector<Pixel> points;
   std::vector<Pixel> seen;
+  std::optional<std::size_t> before;
   for (const std::size_t row : curve.rows) {
-    const bool shown = std::isfinite(y.values[row]) && !(frame.y.log && y.values[row] <= 0);
-    points.push_back(shown ? place(frame, x.values[row], y.values[row]) : Pixel{0, kNone});
-    if (shown) {
-      seen.push_back(points.back());
+    const Pixel here = place_of(frame, x, table.output, row);
+    if (before && is_break(table, *before, row)) {
+      breaks.push_back({points.back(), here, change_at(table, *before, row)});
+      points.push_back({0, kNone});
     }
+    points.push_back(here);
+    if (std::isfinite(here.y)) {
+      seen.push_back(here);
+    }
+    before = row;
   }
   std::vector<Shape> shapes{
       path_of("series-line", line_data(points, crowded ? kCrowdedTolerance : kTolerance))};
@@ -142,10 +157,27 @@ Shape failed_shape(const Table& table, const Column& x, const Frame& frame) {
   return path_of("mark failed", data);
 }
 
+/// Returns where each curve is drawn, for labels to keep away from.
+std::vector<std::vector<Pixel>> curve_pixels(const std::vector<Curve>& curves, const Table& table,
+                                             const Column& x, const Frame& frame) {
+  std::vector<std::vector<Pixel>> all;
+  for (const Curve& curve : curves) {
+    std::vector<Pixel> points;
+    for (const std::size_t row : curve.rows) {
+      if (const Pixel here = place_of(frame, x, table.output, row); std::isfinite(here.y)) {
+        points.push_back(here);
+      }
+    }
+    all.push_back(std::move(points));
+  }
+  return all;
+}
+
 Frame frame_of(const Column& x, const Column& y, Size size, double top) {
   Frame frame;
   frame.y = axis_of(y, std::max(60.0, size.height - 44), top, false);
   frame.y_names = y.names;
+  frame.y_name_room = std::min(160.0, 0.2 * size.width);
   frame.y_label = y.label;
   frame.x_label = x.label;
   frame.x_names = x.names;
@@ -170,10 +202,14 @@ Figure sweep_figure(const Field& document, const PlotRequest& request, Size size
                        (curves.size() == 1 ? " curve." : " curves.") +
                        (failures.empty() ? "" : " " + failures + ".");
   figure.shapes.push_back(frame_shape(frame, size));
+  std::vector<SweepBreak> breaks;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    figure.shapes.push_back(curve_shape(curves[i], i, curves.size() > kNamed, frame, x, table.output));
+    figure.shapes.push_back(curve_shape(curves[i], i, curves.size() > kNamed, frame, table, x, breaks));
   }
+  figure.description += breaks_text(breaks);
   figure.shapes.push_back(failed_shape(table, x, frame));
+  figure.shapes.push_back(breaks_shape(breaks, curve_pixels(curves, table, x, frame), size,
+                                       {frame.x.start, frame.y.end, frame.x.end, frame.y.start}));
   figure.shapes.push_back(legend_shape(legend, size.width, under_failures));
   if (!failures.empty()) {
     figure.shapes.push_back(failure_note(failures, size));

@@ -127,6 +127,20 @@ Column column_of(const Raw& raw, std::size_t index) {
   return column;
 }
 
+/// Name that replaces those of the two columns of a refined sweep.
+constexpr const char* kOwnColumn = "";
+
+/// Renames the columns of a refined sweep, `piece` and `change`, which stand after an output and before
+/// `error`, so that parameters of these names are not taken for them.
+void rename_own(std::vector<std::string>& columns) {
+  const auto error = std::find(columns.begin(), columns.end(), "error");
+  if (error - columns.begin() > 2 && error != columns.end() && error[-1] == "change" &&
+      error[-2] == "piece" && error[-3].starts_with('/')) {
+    error[-1] = kOwnColumn;
+    error[-2] = kOwnColumn;
+  }
+}
+
 Raw read_raw(const Field& document) {
   const Field rows = document.at("rows");
   Raw raw{{}, rows, {}};
@@ -134,6 +148,7 @@ Raw read_raw(const Field& document) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     raw.columns.push_back(columns.item(i).text());
   }
+  rename_own(raw.columns);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows.item(i).size() != raw.columns.size()) {
       rows.item(i).fail("must have a value for each of the " + std::to_string(raw.columns.size()) +
@@ -156,7 +171,8 @@ std::string names_of(const std::vector<std::string>& names) {
 }
 
 bool is_parameter(const std::string& column) {
-  return !column.starts_with('/') && column != "error" && column != "point" && column != "request";
+  return column != kOwnColumn && !column.starts_with('/') && column != "error" && column != "point" &&
+         column != "request";
 }
 
 /// Returns whether a cell equals a text; a number may be written in any form.
@@ -195,7 +211,7 @@ Column read_output(const Raw& raw, const PlotRequest& request) {
   std::vector<std::string> outputs;
   for (std::size_t i = 0; i < raw.columns.size(); ++i) {
     const std::string& name = raw.columns[i];
-    if (name == "error" || is_parameter(name)) {
+    if (name == "error" || name == kOwnColumn || is_parameter(name)) {
       continue;
     }
     outputs.push_back(name);
@@ -226,6 +242,20 @@ std::vector<std::string> read_errors(const Raw& raw) {
   return errors;
 }
 
+/// Reads the columns of a refined sweep, which read_raw() took out of the others.
+void read_pieces(const Raw& raw, Table& table) {
+  const auto first = std::find(raw.columns.begin(), raw.columns.end(), kOwnColumn);
+  if (first == raw.columns.end()) {
+    return;
+  }
+  const auto piece = static_cast<std::size_t>(first - raw.columns.begin());
+  for (std::size_t row = 0; row < raw.rows.size(); ++row) {
+    table.pieces.push_back(raw.cell(row, piece).number_or_none());
+    const nlohmann::json& change = raw.value(row, piece + 1);
+    table.changes.push_back(change.is_null() ? "" : text_of(change));
+  }
+}
+
 /// Returns the coefficient of variation of the steps between values, or between their logarithms.
 double unevenness(const std::vector<double>& values, bool logarithms) {
   double sum = 0;
@@ -238,6 +268,19 @@ double unevenness(const std::vector<double>& values, bool logarithms) {
   const auto count = static_cast<double>(values.size() - 1);
   const double mean = sum / count;
   return std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean;
+}
+
+/// Returns whether all values are the first one and a whole multiple of their smallest step.
+bool are_multiples(const std::vector<double>& values) {
+  double step = values.back() - values.front();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    step = std::min(step, values[i] - values[i - 1]);
+  }
+  return std::all_of(values.begin(), values.end(), [&](double value) {
+    constexpr double kRounding = 1e-3;  // share of a step
+    const double multiple = (value - values.front()) / step;
+    return std::abs(multiple - std::round(multiple)) < kRounding;
+  });
 }
 
 }  // namespace
@@ -259,6 +302,10 @@ Table read_table(const Field& document, const PlotRequest& request) {
   }
   table.output = read_output(raw, request);
   table.errors = read_errors(raw);
+  read_pieces(raw, table);
+  for (Column& column : table.parameters) {
+    column.refined = !table.pieces.empty();
+  }
   return table;
 }
 
@@ -299,7 +346,7 @@ bool is_logarithmic(const Column& column) {
       values.back() < kLeastRatio * values.front()) {
     return false;
   }
-  return unevenness(values, true) < unevenness(values, false);
+  return column.refined ? !are_multiples(values) : unevenness(values, true) < unevenness(values, false);
 }
 
 std::string failure_text(const std::vector<std::string>& errors) {

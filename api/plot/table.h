@@ -18,6 +18,7 @@ struct Column {
   std::string label;  ///< name in words, for axis labels
   std::vector<double> values;
   std::optional<std::vector<std::string>> names;  ///< texts by number; nullopt: a column of numbers
+  bool refined = false;                           ///< rows of a refined sweep lie where its curves need them
 
   [[nodiscard]] bool has_values() const;
   [[nodiscard]] std::size_t distinct() const;
@@ -28,6 +29,10 @@ struct Table {
   std::vector<Column> parameters;
   Column output;
   std::vector<std::string> errors;  ///< error code of each row; empty: the point did not fail
+  /// Columns of a refined sweep, one entry for each row; empty for other sweeps. Rows of different pieces are
+  /// not joined; `changes` is "" where no piece begins.
+  std::vector<double> pieces;
+  std::vector<std::string> changes;
 };
 
 /// @brief Reads the rows that match `where`, with all parameters and the requested output.
@@ -40,7 +45,8 @@ struct Table {
 /// Returns the parameter with a name. @throws PlotError when the table has none
 [[nodiscard]] const Column& parameter(const Table& table, const std::string& name);
 
-/// Returns whether a logarithmic axis spaces the values more evenly: all > 0, over a factor of 8 or more.
+/// Returns whether a logarithmic axis spaces the values more evenly: all > 0, over a factor of 8 or more. The
+/// values of a refined column are places of a range: multiples of a step, or of a ratio.
 [[nodiscard]] bool is_logarithmic(const Column& column);
 
 /// Returns the counts of error codes, such as "3 failed: 2 no_start, 1 mechanism"; "" without errors.

@@ -154,10 +154,11 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_sweep(const char* document,
  *                       command line or the service
  * @param length         bytes of the document
  * @param choices        null, or UTF-8 JSON, an object with any of: "kind" ("path", "shape", "sections", "mode",
- *                       "sweep", "heatmap"), "width", "height" (pixels), "dark", "state", "mode", "branch"
- *                       (indices from 0), "monitor", "over_arc_length", "magnify", "output" (JSON Pointer), "x",
- *                       "by" (names of parameters), "where" ({name: value}), "solved_request" (the request, so
- *                       that supports, ground and loads can be drawn)
+ *                       "model", "law", "frequencies", "stiffness", "sweep", "heatmap"), "width", "height"
+ *                       (pixels), "dark", "state", "mode", "branch" (indices from 0), "monitor",
+ *                       "over_arc_length", "magnify", "law" (id of a spring or foundation), "output" (JSON
+ *                       Pointer), "x", "by" (names of parameters), "where" ({name: value}), "solved_request"
+ *                       (the request, so that supports, ground, loads and laws can be drawn)
  * @param choices_length bytes of the choices
  * @return with DONE an SVG document (text that is no JSON); otherwise a problem, whose "errors" have pointers into
  *         the document, or into the choices if they begin with "choices:"

@@ -55,7 +55,7 @@ snapthrough_document* snapthrough_wasm_sweep(const char* document, std::size_t l
 EXPORTED("point")
 snapthrough_document* snapthrough_wasm_point(const char* document, std::size_t length, double point) {
   const snapthrough::api::SweepOutcome read = snapthrough::api::read_sweep({document, length});
-  if (!read.sweep || !(point >= 0.0) || point >= static_cast<double>(read.sweep->size())) {
+  if (!read.sweep || !(point >= 0.0) || point >= static_cast<double>(read.sweep->places())) {
     return nullptr;
   }
   const std::string text = read.sweep->request_text(static_cast<std::uint64_t>(point));

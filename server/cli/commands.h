@@ -65,7 +65,7 @@ int sweep_command(const std::string& path, const Streams& streams, const SweepOp
 int merge_command(const std::vector<std::string>& paths, api::TableForm form, const Streams& streams);
 
 /// Reports the number of failed points, if any, on `err`; returns the exit status.
-int told_failed(std::uint64_t failed, std::uint64_t points, const Streams& streams);
+int told_failed(const api::RowCounts& counts, const Streams& streams);
 
 /// Runs the service until SIGTERM or SIGINT. SIGHUP reloads the keys of the configuration file; without a
 /// file, it ends the service, too.

@@ -29,7 +29,9 @@ PartRows rows_of(PartReader& reader, const api::Sweep& sweep) {
   const UnitRange units = units_of(reader.part(), sweep);
   PartRows rows{reader.path(), reader.part(), units.first * sweep.unit_size(),
                 (units.end - units.first) * sweep.unit_size(), 0};
-  reader.require_outputs(sweep.output_count());
+  if (!sweep.refines()) {
+    reader.require_outputs(sweep.output_count());
+  }
   while (const auto row = reader.next()) {
     if (row->first != rows.first + rows.present || rows.present == rows.points) {
       throw std::runtime_error(rows.path + " has a row of point " + std::to_string(row->first) +
@@ -111,14 +113,16 @@ int merge_command(const std::vector<std::string>& paths, api::TableForm form, co
   }
   api::TableWriter writer(sweep, form, std::nullopt, api::provenance_members("table", first.document()));
   streams.out << writer.head();
-  std::uint64_t failed = 0;
+  api::RowCounts counts;
   for (const PartRows& part : parts) {
     PartReader reader(part.path);
     while (const auto row = reader.next()) {
       std::string text;
       writer.append_row(row->first, row->second, text);
       streams.out << text;
-      failed += row->second.failed() ? 1 : 0;
+      const api::RowCounts more = sweep.row_counts(row->first, row->second);
+      counts.rows += more.rows;
+      counts.failed += more.failed;
     }
   }
   std::string tail;
@@ -128,7 +132,7 @@ int merge_command(const std::vector<std::string>& paths, api::TableForm form, co
     streams.err << "snapthrough: cannot write the rows\n";
     return kOther;
   }
-  return told_failed(failed, sweep.size(), streams);
+  return told_failed(counts, streams);
 }
 
 }  // namespace snapthrough::server::cli

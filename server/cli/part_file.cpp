@@ -152,18 +152,20 @@ void PartWriter::take_over(const json& document, const api::Sweep& sweep, const 
   const std::uint64_t first = units_of(part, sweep).first * sweep.unit_size();
   std::uint64_t whole_bytes = reader.bytes();
   std::uint64_t points = 0;
-  std::uint64_t failed = 0;
+  api::RowCounts counts;
   while (const auto row = reader.next()) {
     if (row->first != first + points) {
       throw std::runtime_error(path_ + " has the row of point " + std::to_string(row->first) +
                                " where that of point " + std::to_string(first + points) + " should be");
     }
     ++points;
-    failed += row->second.failed() ? 1 : 0;
+    const api::RowCounts more = sweep.row_counts(row->first, row->second);
+    counts.rows += more.rows;
+    counts.failed += more.failed;
     if (points % sweep.unit_size() == 0) {
       whole_bytes = reader.bytes();
       points_ = points;
-      failed_ = failed;
+      counts_ = counts;
     }
   }
   if (::ftruncate(file_.get(), static_cast<off_t>(whole_bytes)) != 0 ||

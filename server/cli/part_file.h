@@ -84,9 +84,9 @@ class PartWriter {
   PartWriter(std::string path, const nlohmann::json& document, const api::Sweep& sweep,
              const SweepPart& part);
 
-  /// Return the number of points, and of failed points, that the file had at first.
+  /// Return the number of outcomes (Sweep::size()) and of rows that the file had at first.
   [[nodiscard]] std::uint64_t points_before() const { return points_; }
-  [[nodiscard]] std::uint64_t failed_before() const { return failed_; }
+  [[nodiscard]] const api::RowCounts& counts_before() const { return counts_; }
 
   /// Appends the line of a point to `text`.
   static void append_row(std::uint64_t point, const api::PointOutcome& outcome, std::string& text);
@@ -99,7 +99,7 @@ class PartWriter {
   std::string path_;
   Descriptor file_;
   std::uint64_t points_ = 0;
-  std::uint64_t failed_ = 0;
+  api::RowCounts counts_;
 };
 
 }  // namespace snapthrough::server::cli

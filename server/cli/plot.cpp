@@ -53,6 +53,7 @@ void add_choices(CLI::App& command, PlotArguments& arguments) {
   command.add_flag("--points", figure.points, "path: mark the points at which an equilibrium was solved");
   command.add_option("--magnify", figure.magnify, "shape: factor of displacements; mode: factor of its size")
       ->check(CLI::PositiveNumber);
+  command.add_option("--law", figure.law, "law: id of the spring or foundation [first with a law]");
   command.add_option("--output", figure.output,
                      "sweep, heatmap: JSON Pointer of the output, as in the table's columns");
   command.add_option("--x", figure.x, "sweep, heatmap: parameter on the horizontal axis");

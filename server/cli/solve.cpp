@@ -179,7 +179,10 @@ int check_command(const std::string& path, const Streams& streams) {
   if (parsed.document != nullptr && api::is_sweep(*parsed.document)) {
     const api::SweepOutcome outcome = api::read_sweep_document(parsed.document);
     findings = outcome.findings;
-    size = outcome.sweep ? ", a sweep of " + std::to_string(outcome.sweep->size()) + " points" : "";
+    if (outcome.sweep) {
+      size = ", a sweep of " + std::to_string(outcome.sweep->size()) +
+             (outcome.sweep->refines() ? " refined curves or surfaces" : " points");
+    }
   } else if (parsed.document != nullptr) {
     findings = api::read_request_document(parsed.document).findings;
   }

@@ -34,10 +34,10 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kLongestLead = 4096;
 constexpr std::chrono::milliseconds kBetweenBars{100};
 
-/// Counts of rows.
-struct RowCounts {
-  std::uint64_t written = 0;
-  std::uint64_t failed = 0;
+/// What was written.
+struct Written {
+  std::uint64_t outcomes = 0;
+  api::RowCounts counts;
 };
 
 /// Destination of rows in the order of points: a table or a part file.
@@ -138,14 +138,14 @@ class RowQueue {
   }
 
   /// Ends the output. Call it after the last put(). @throws the exception of the sink
-  RowCounts finish() {
+  Written finish() {
     const std::lock_guard guard(mutex_);
     if (failure_) {
       std::rethrow_exception(failure_);
     }
     sink_.end();
     show_bar(true);
-    return {next_row_ - units_.first * sweep_.unit_size(), failed_};
+    return {next_row_ - units_.first * sweep_.unit_size(), counts_};
   }
 
  private:
@@ -153,7 +153,9 @@ class RowQueue {
     std::string text;
     for (auto first = waiting_.begin(); first != waiting_.end() && first->first == next_row_;
          first = waiting_.erase(first)) {
-      failed_ += first->second.failed() ? 1 : 0;
+      const api::RowCounts counts = sweep_.row_counts(next_row_, first->second);
+      counts_.rows += counts.rows;
+      counts_.failed += counts.failed;
       sink_.append_row(next_row_++, first->second, text);
     }
     if (!text.empty()) {
@@ -170,7 +172,7 @@ class RowQueue {
     next_bar_ = now + kBetweenBars;
     const std::chrono::duration<double> elapsed = now - start_;
     const std::uint64_t all = (units_.end - units_.first) * sweep_.unit_size();
-    *bar_ << line_start << progress_line(done_, failed_, all, elapsed.count()) << line_end
+    *bar_ << line_start << progress_line(done_, counts_.failed, all, elapsed.count()) << line_end
           << (last ? "\n" : "") << std::flush;
   }
 
@@ -186,14 +188,14 @@ class RowQueue {
   std::uint64_t next_row_;      ///< point of the next row
   std::exception_ptr failure_;  ///< exception of the sink
   std::uint64_t done_ = 0;      ///< number of computed points
-  std::uint64_t failed_ = 0;
+  api::RowCounts counts_;       ///< written
   const Clock::time_point start_ = Clock::now();
   Clock::time_point next_bar_ = start_;
 };
 
 /// Computes the units of a queue on `threads` threads. Units are independent, so that rows do not depend on
 /// the number of threads.
-RowCounts compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, const std::stop_token& stop) {
+Written compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, const std::stop_token& stop) {
   const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
     return solve_checked(model, analysis, hooks);
   };
@@ -219,9 +221,9 @@ RowCounts compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, co
 
 /// Writes the request document of one point.
 int write_point(const api::Sweep& sweep, std::uint64_t point, const Streams& streams) {
-  if (point >= sweep.size()) {
-    streams.err << "snapthrough: the points of this sweep are 0 to " << sweep.size() - 1 << ", not " << point
-                << '\n';
+  if (point >= sweep.places()) {
+    streams.err << "snapthrough: the points of this sweep are 0 to " << sweep.places() - 1 << ", not "
+                << point << '\n';
     return kOther;
   }
   streams.out << sweep.document_at(point)->dump(2) << '\n' << std::flush;
@@ -235,16 +237,17 @@ int write_table(const api::Sweep& sweep, const nlohmann::json& document, const S
   TableSink sink(sweep, document, options.form, streams.out);
   RowQueue queue(sweep, {0, sweep.units()}, sink, options.show_progress ? &streams.err : nullptr,
                  interruption.token());
-  const RowCounts rows = compute_rows(sweep, queue, options.threads, interruption.token());
+  const Written rows = compute_rows(sweep, queue, options.threads, interruption.token());
   if (!streams.out) {
     streams.err << "snapthrough: cannot write the rows\n";
     return kOther;
   }
-  if (rows.written < sweep.size()) {
-    streams.err << "interrupted: " << rows.written << " of " << sweep.size() << " rows were written\n";
+  if (rows.outcomes < sweep.size()) {
+    streams.err << "interrupted: " << rows.outcomes << " of " << sweep.size()
+                << (sweep.refines() ? " curves or surfaces" : " rows") << " were written\n";
     return interruption.exit_status();
   }
-  return told_failed(rows.failed, sweep.size(), streams);
+  return told_failed(rows.counts, streams);
 }
 
 /// Solves the points of a part that its file lacks, and appends their rows.
@@ -261,23 +264,26 @@ int write_part(const api::Sweep& sweep, const nlohmann::json& document, const St
   }
   units.first += file.points_before() / sweep.unit_size();
   RowQueue queue(sweep, units, sink, options.show_progress ? &streams.err : nullptr, interruption.token());
-  const RowCounts rows = compute_rows(sweep, queue, options.threads, interruption.token());
-  const std::uint64_t present = file.points_before() + rows.written;
+  const Written rows = compute_rows(sweep, queue, options.threads, interruption.token());
+  const std::uint64_t present = file.points_before() + rows.outcomes;
   if (present < points) {
     streams.err << "interrupted: " << options.out << " has " << present << " of " << points
-                << " rows; the same command goes on with it\n";
+                << (sweep.refines() ? " curves or surfaces" : " rows")
+                << "; the same command goes on with it\n";
     return interruption.exit_status();
   }
-  return told_failed(file.failed_before() + rows.failed, points, streams);
+  const api::RowCounts& before = file.counts_before();
+  return told_failed({before.rows + rows.counts.rows, before.failed + rows.counts.failed}, streams);
 }
 
 }  // namespace
 
-int told_failed(std::uint64_t failed, std::uint64_t points, const Streams& streams) {
-  if (failed == 0) {
+int told_failed(const api::RowCounts& counts, const Streams& streams) {
+  if (counts.failed == 0) {
     return kDone;
   }
-  streams.err << failed << " of " << points << " points could not be completed; the column error says why\n";
+  streams.err << counts.failed << " of " << counts.rows
+              << " points could not be completed; the column error says why\n";
   return kNotCompleted;
 }
 

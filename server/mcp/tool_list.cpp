@@ -66,6 +66,7 @@ json plot_schema() {
        {"arc_length", flag_field("path: arc length on the horizontal axis")},
        {"points", flag_field("path: mark the points at which an equilibrium was solved")},
        {"magnify", {{"type", "number"}, {"exclusiveMinimum", 0}, {"description", "Factor of displacements"}}},
+       {"law", text_field("law: id of the spring or foundation; default: the first with a law")},
        {"output", text_field("sweep, heatmap: column of the table")},
        {"x", text_field("sweep, heatmap: parameter on the horizontal axis")},
        {"by", text_field("sweep: parameter with a curve for each value; heatmap: vertical axis")},
@@ -141,8 +142,8 @@ json tool_list() {
           "Returns a part of a result or table of this session by JSON Pointer, of a list at most 200 items.",
           read_schema()),
       tool("plot", "Draw a result, a table or a model",
-           "Draws the equilibrium path, a deformed shape, section forces, a mode, a structure, or the chart "
-           "of a table.",
+           "Draws the equilibrium path, a deformed shape, section forces, a mode, a structure, the law of a "
+           "support, frequencies or stiffness along a path, or the chart of a table.",
            plot_schema()),
       tool("convert", "Make parts of a model",
            "Makes the foundations of a pile from soil layers (API RP 2GEO), or nodes, members and sections "

@@ -111,6 +111,7 @@ api::PlotRequest figure_of(Reader& in) {
   figure.branch = in.index("branch");
   figure.monitor = in.text("monitor");
   figure.magnify = in.number("magnify", 1.0 / kLargest, kLargest);
+  figure.law = in.text("law");
   figure.output = in.text("output");
   figure.x = in.text("x");
   figure.by = in.text("by");
@@ -195,7 +196,7 @@ json Tools::plot(const json& arguments, Dialogue& /*dialogue*/) {
   Reader in(arguments);
   in.findings = unknown_members(
       arguments, {"id", "model", "kind", "state", "mode", "branch", "monitor", "arc_length", "points",
-                  "magnify", "output", "x", "by", "width", "height", "dark", "svg"});
+                  "magnify", "law", "output", "x", "by", "width", "height", "dark", "svg"});
   const std::optional<std::string> id = in.text("id");
   const Kept* kept = id ? shelf_.find(*id) : nullptr;
   if (id.has_value() == arguments.contains("model")) {

@@ -50,6 +50,7 @@ constexpr QueryParameter<PlotRequest> kPlotParameters[] = {
        figure.magnify = whole_number<double>(value);
        return figure.magnify && *figure.magnify > 0.0;
      }},
+    {"law", [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.law); }},
     {"output", [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.output); }},
     {"x", [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.x); }},
     {"by", [](const std::string& value, PlotRequest& figure) { return read_text(value, figure.by); }},
@@ -66,7 +67,7 @@ std::optional<Response> read_plot_query(const Request& request, PlotRequest& fig
   if (const auto wrong = read_query(request, kPlotParameters, figure)) {
     return wrong_parameter(request,
                            "kind (" + api::names_in(api::kPlotKinds) +
-                               "), state, mode and branch (numbers from 0), monitor, output, x, by, "
+                               "), state, mode and branch (numbers from 0), monitor, law, output, x, by, "
                                "arc-length, points and dark (true or "
                                "false), magnify (above 0), width and height (200 to 8000), each once, and "
                                "where (NAME=VALUE, each NAME once)",

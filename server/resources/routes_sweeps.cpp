@@ -254,15 +254,19 @@ Response Routes::sweep_csv(const Request& request, const std::string& id) {
 
 Response Routes::with_point(const Request& request, const std::string& id, const std::string& point,
                             const std::function<Response(std::string)>& answer) {
-  return with_sweep(request, id, [&](const SweepRecord& record) {
+  return with_sweep(request, id, [&](const SweepRecord&) {
+    ReadSweep read = read_stored(request, jobs_.sweeps().store(), id);
+    if (!read.sweep) {
+      return std::move(read.trouble);
+    }
+    const std::uint64_t places = read.sweep->places();
     const std::optional<std::uint64_t> number = whole_number<std::uint64_t>(point);
-    if (!number || std::to_string(*number) != point || *number >= static_cast<std::uint64_t>(record.points)) {
+    if (!number || std::to_string(*number) != point || *number >= places) {
       return simple_problem(
           request, 404, "no-such-point", "No such point",
-          "The points of this sweep are 0 to " + std::to_string(record.points - 1) + ", not " + point + ".");
+          "The points of this sweep are 0 to " + std::to_string(places - 1) + ", not " + point + ".");
     }
-    ReadSweep read = read_stored(request, jobs_.sweeps().store(), id);
-    return read.sweep ? answer(read.sweep->request_text(*number)) : std::move(read.trouble);
+    return answer(read.sweep->request_text(*number));
   });
 }
 

@@ -13,10 +13,12 @@ namespace snapthrough::server {
 
 std::vector<std::string> SweepUnit::keys(const std::string& outputs, std::string_view owner,
                                          std::shared_ptr<nlohmann::json>& document) const {
-  const std::string beside = sweep_.follows() ? outputs + sweep_.curve_text(first()) : outputs;
+  const std::string beside = sweep_.follows()   ? outputs + sweep_.curve_text(first())
+                             : sweep_.refines() ? outputs + sweep_.refinement_text()
+                                                : outputs;
   std::vector<std::string> all;
   for (std::uint64_t i = 0; i < count(); ++i) {
-    sweep_.write_document(first() + i, document);
+    sweep_.write_document(sweep_.first_place(first() + i), document);
     all.push_back(point_key(*document, beside, owner));
   }
   return all;
@@ -34,8 +36,9 @@ std::vector<api::PointOutcome> SweepUnit::compute(const SolveFunction& solve, co
 }
 
 std::string SweepUnit::too_long(std::chrono::seconds longest) const {
-  return sweep_.follows() ? "the curve took longer than one analysis may take"
-                          : "the analysis took longer than " + std::to_string(longest.count()) + " s";
+  return sweep_.follows() || sweep_.refines()
+             ? "the curve or surface took longer than one analysis may take"
+             : "the analysis took longer than " + std::to_string(longest.count()) + " s";
 }
 
 WorkUsage compute_units(const UnitTask& task, const SolveFunction& solve) {

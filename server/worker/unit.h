@@ -16,8 +16,8 @@
 
 namespace snapthrough::server {
 
-/// @brief One point, or one curve (all points along the parameter that is followed). Thread-safe. REQUIRES:
-/// the sweep outlives the unit.
+/// @brief One point, one followed curve (all points along the parameter that is followed), or one refined
+/// curve or surface, which has a single outcome. Thread-safe. REQUIRES: the sweep outlives the unit.
 class SweepUnit {
  public:
   /// @param number counted from 0 @pre number < sweep.units()
@@ -28,7 +28,8 @@ class SweepUnit {
   [[nodiscard]] std::uint64_t count() const { return sweep_.unit_size(); }
 
   /// @brief Keys of the unit's points (point_key()), in the order of the points. The key of a point of a
-  /// curve includes the curve: following gives other last digits than tracing.
+  /// curve includes the curve: following gives other last digits than tracing. The key of a refined curve or
+  /// surface is that of its first point with its ranges and its tolerance.
   /// @param outputs Sweep::outputs_text()
   /// @param document document of any point of the sweep, overwritten; null: a new one is made
   [[nodiscard]] std::vector<std::string> keys(const std::string& outputs, std::string_view owner,

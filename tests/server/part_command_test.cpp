@@ -225,6 +225,31 @@ TEST_F(PartCommand, APartIsTwoNumbers) {
   EXPECT_THAT(run_with({"sweep", document_, "--csv", "--out", file("rows")}).err, HasSubstr("--csv"));
 }
 
+/// Two refined curves, each in a part of its own; the second has no valid section, so that all its points
+/// fail.
+TEST_F(PartCommand, PartsOfARefinedSweepAreMerged) {
+  std::ifstream stream(std::string(SNAPTHROUGH_SOURCE_DIR) + "/examples/gallery/charts/film.json");
+  json document = json::parse(stream);
+  document["parameters"][0]["targets"] = {{{"pointer", "/model/foundations/0/stiffness"}, {"scale", 1e-4}}};
+  document["parameters"][0]["range"] = {{"from", 0}, {"to", 1000}, {"count", 3}};
+  const json bending = {
+      {"name", "EI"}, {"targets", {{{"pointer", "/model/sections/0/EI"}}}}, {"values", {1, -1}}};
+  document["parameters"].insert(document["parameters"].begin(), bending);
+  document["refine"] = {{"output", "/buckling/load_factors/0"}};
+  const std::string sweep = file("refined.json");
+  std::ofstream(sweep) << document.dump();
+  const Outcome whole = run_with({"sweep", sweep, "--csv"});
+  EXPECT_EQ(whole.exit_status, 3);
+  EXPECT_THAT(whole.err, HasSubstr(" points could not be completed"));
+  for (const std::string part : {"1", "2"}) {
+    run_with({"sweep", sweep, "--part", part + "/2", "--out", file("refined." + part)});
+  }
+  const Outcome merged = run_with({"merge", file("refined.1"), file("refined.2"), "--csv"});
+  EXPECT_EQ(merged.exit_status, 3);
+  EXPECT_EQ(merged.out, whole.out);
+  EXPECT_EQ(merged.err, whole.err);
+}
+
 /// Curves are units: a part never cuts one.
 TEST_F(PartCommand, PartsAreWholeCurves) {
   const std::string curve = std::string(SNAPTHROUGH_SOURCE_DIR) + "/examples/sweeps/ring_followed.json";

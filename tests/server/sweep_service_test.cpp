@@ -229,6 +229,31 @@ TEST_F(SweepService, AFollowedCurveIsOneUnitOfWork) {
   }
 }
 
+/// A refined curve counts as one; its rows lead to requests, and an equal sweep is read from the store.
+TEST_F(SweepService, ARefinedCurveIsOneUnitOfWork) {
+  start(solve);
+  json document = json::parse(read_text(SNAPTHROUGH_SOURCE_DIR "/examples/gallery/charts/film.json"));
+  document["parameters"][0]["targets"] = {{{"pointer", "/model/foundations/0/stiffness"}, {"scale", 1e-4}}};
+  document["parameters"][0]["range"] = {{"from", 10}, {"to", 1000}, {"count", 5}, {"spacing", "log"}};
+  document["refine"] = {{"output", "/buckling/load_factors/0"}, {"within", 0.01}};
+  const std::string refined = submit_sweep(document.dump());
+  const json status = ended(refined);
+  EXPECT_EQ(status["status"], "successful");
+  EXPECT_EQ(status["points"], 1);
+  const json first = table(refined);
+  ASSERT_GT(first["rows"].size(), 10U);
+  EXPECT_EQ(first["columns"][2], "piece");
+  const std::string point = refined + "/points/" + first["points"].back().dump() + "/request";
+  const json request = json::parse(get(port(), point).body);
+  EXPECT_NEAR(request["model"]["foundations"][0]["stiffness"].get<double>(), 0.1, 1e-12);
+  EXPECT_EQ(get(port(), refined + "/points/4097/request").status, 404);
+  const std::string again = submit_sweep(document.dump());
+  EXPECT_EQ(ended(again)["counts"]["reused"], 1);
+  EXPECT_EQ(table(again)["rows"], first["rows"]);
+  document["refine"]["within"] = 0.02;
+  EXPECT_EQ(ended(submit_sweep(document.dump()))["counts"]["reused"], 0);
+}
+
 TEST_F(SweepService, DismissalStopsItAndKeepsRows) {
   const auto solver = std::make_shared<GatedSolver>();
   start(gated(solver));

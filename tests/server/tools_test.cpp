@@ -241,6 +241,11 @@ TEST_F(Tools, FiguresAreThoseOfTheCommand) {
       printed({"plot", "-", "--x", "EI", "--output", "/summary/critical_load_factor", "--where", "EI=2"},
               table));
   expect_bytes(sent("/v1/plot?kind=model", request), svg, printed({"plot", request_file, "--kind", "model"}));
+  const std::string pile = text_of(kExamples + "pile_in_soil.json");
+  expect_bytes(sent("/v1/plot?kind=law&law=friction", pile), svg,
+               printed({"plot", "-", "--kind", "law", "--law", "friction"}, pile));
+  expect_bytes(sent("/v1/plot?kind=stiffness", both), svg,
+               printed({"plot", result_file, "--kind", "stiffness"}));
 }
 
 // What a drawing gives is a model, and a figure shows it as it is.
@@ -281,6 +286,11 @@ TEST_F(Tools, DocumentsWithoutAFigureAreToldByPointer) {
                         {"kind=model", alone, ""},
                         {"kind=model", small_table(), ""},
                         {"kind=heatmap", request["model"], ""},
+                        {"kind=law", request, "/model"},
+                        {"kind=law", small_table(), ""},
+                        {"kind=law", {{"result", path}, {"request", request}}, "/request/model"},
+                        {"kind=stiffness", request, "/analysis"},
+                        {"kind=frequencies", path, "/branches/0/load_factor"},
                         {"", row, "/rows/1"},
                         {"", {{"result", row}}, "/result/rows/1"},
                         {"", {{"result", small_table()}, {"other", 1}}, "/other"},

@@ -63,6 +63,7 @@ test('a sweep of static analyses has what the monitors read', async () => {
   await page.locator('.model-form summary', { hasText: 'Sections' }).click();
   await page.getByRole('button', { name: 'Give EI a slider' }).click();
   await page.getByRole('tab', { name: 'Sweep' }).click();
+  await page.getByLabel('More values where the curve needs them').uncheck();
   await page.getByRole('button', { name: 'Start the sweep' }).click();
   await page.waitForURL(/#\/sweeps\//);
   const sweep = page.url().split('/').at(-1);
@@ -83,6 +84,7 @@ test('a sweep over two sliders becomes a map, and each of its points can be open
   for (const field of await page.getByLabel('count').all()) {
     await field.fill('5');
   }
+  await page.getByLabel('More values where the curve needs them').uncheck();
   await page.getByRole('button', { name: 'Start the sweep' }).click();
   await page.locator('.badge', { hasText: 'successful' }).waitFor();
   await page.locator('.card-head', { hasText: 'Table of 25 rows' }).waitFor();
@@ -92,6 +94,27 @@ test('a sweep over two sliders becomes a map, and each of its points can be open
   const load = await page.locator('.note span', { hasText: 'critical load factor' }).locator('strong').innerText();
   await page.mouse.click(chart.x + chart.width / 2, chart.y + chart.height / 2);
   await page.locator('.trust-card .headline', { hasText: load }).waitFor();
+  await close(page);
+});
+
+test('a sweep of the page has more rows where its curve needs them, and its chart names where the kind changes', async () => {
+  const page = await openPage(browser, `${service.url}/#/studio?problem=tunnel_arch`);
+  await settled(page);
+  await page.getByRole('tab', { name: 'Sweep' }).click();
+  await page.getByRole('button', { name: 'Start the sweep' }).click();
+  await page.locator('.badge', { hasText: 'successful' }).waitFor();
+  await page.locator('.sweep-chart svg').first().waitFor();
+  const sweep = page.url().split('/').at(-1);
+  const read = async (path) => (await fetch(`${service.url}/v1/sweeps/${sweep}${path}`)).json();
+  assert.deepEqual((await read('/request')).refine, { output: '/summary/critical_load_factor', within: 0.01 });
+  const { rows, columns } = await read('/table');
+  assert.deepEqual(columns.slice(-3), ['piece', 'change', 'error']);
+  assert.ok(rows.length > 41, String(rows.length));
+  await page.locator('.sweep-chart .break-text', { hasText: 'bifurcation to limit point' }).waitFor();
+  assert.ok((await page.locator('.sweep-chart .break-mark').count()) >= 1);
+  assert.match(await page.locator('.unseen li').first().textContent(), /^Ground stiffness .*: bifurcation to limit point$/);
+  assert.deepEqual(await page.getByLabel('Output').locator('option').evaluateAll((all) =>
+    all.map((one) => one.value).filter((name) => !name.startsWith('/'))), []);
   await close(page);
 });
 

@@ -259,8 +259,46 @@ TEST(HostileDocument, AnyValueOfAResultMayBeAnother) {
   result["critical_points"][0]["state"] = 0;
   result.erase("diagnostics");
   result.erase("discretization");
-  expect_figures_or_errors(result,
-                           kinds({PlotKind::path, PlotKind::shape, PlotKind::sections, PlotKind::mode}));
+  expect_figures_or_errors(result, kinds({PlotKind::path, PlotKind::shape, PlotKind::sections, PlotKind::mode,
+                                          PlotKind::stiffness}));
+}
+
+TEST(HostileDocument, AnyValueOfALawMayBeAnother) {
+  const json number = {{"along", {{0, 1}, {1, 2}}}};
+  for (const json& law :
+       {json{{"type", "tanh"}, {"stiffness", number}, {"capacity", 2}},
+        json{{"type", "hyperbolic"}, {"stiffness", 1}, {"capacity", number}},
+        json{{"type", "power"}, {"stiffness", number}, {"capacity", 2}, {"reference", 4}, {"exponent", 0.5}},
+        json{{"type", "table"}, {"points", {{0, 0}, {1, 2}, {2, 3}}}, {"factor", number}}}) {
+    expect_figures_or_errors({{"model",
+                               {{"nodes", json::array()},
+                                {"units", {{"length", "m"}, {"force", "kN"}}},
+                                {"foundations",
+                                 {{{"id", "ground"},
+                                   {"reaction", "compression_only"},
+                                   {"gap", 1},
+                                   {"range", {0, 1}},
+                                   {"law", law}}}}}}},
+                             kinds({PlotKind::law}));
+  }
+}
+
+TEST(HostileDocument, AnyValueOfFrequenciesMayBeAnother) {
+  const json motions = {{"omega_squared", {4, 4}}, {"imaginary", {-1, 1}}};
+  const json still = {{"omega_squared", {1, 9}}};
+  const json rows = {{"load_factor", {0, 1}},
+                     {"arc_length", {0, 1}},
+                     {"negative_eigenvalues", {0, 0}},
+                     {"frequencies", {still, motions}}};
+  const json point = {{"type", "flutter"}, {"branch", 0},       {"load_factor", 1},
+                      {"arc_length", 1},   {"confirmed", true}, {"monitors", json::object()}};
+  const json vibration = {{"load_factor", 1}, {"frequencies", motions}};
+  for (const json& result :
+       {json{{"summary", json::object()}, {"branches", {rows}}, {"critical_points", {point}}},
+        json{{"summary", json::object()}, {"static", rows}},
+        json{{"summary", json::object()}, {"vibrations", {vibration}}}}) {
+    expect_figures_or_errors(result, kinds({PlotKind::frequencies}));
+  }
 }
 
 TEST(HostileDocument, AnyValueOfATableMayBeAnother) {

@@ -308,6 +308,49 @@ TEST(SweepFigure, DotsStandAtTheirValues) {
   EXPECT_NEAR((crosses[0].first + crosses[1].first) / 2, x.pixel(10, true), 0.51);  // at a whole pixel
 }
 
+/// Two curves of a refined sweep; the first jumps between its third and fourth row.
+json refined_table() {
+  return json::parse(R"({
+    "columns": ["k", "gap", "/summary/critical_load_factor", "piece", "change", "error"],
+    "rows": [[1, 0.0, 9.0, 0, null, null], [1, 0.5, 8.0, 0, null, null], [1, 0.75, 7.5, 0, null, null],
+             [1, 0.751, 4.0, 1, "jump, type: bifurcation to limit_max", null], [1, 1.0, 3.0, 1, null, null],
+             [2, 0.0, 2.0, 0, null, null], [2, 0.4, 2.5, 0, null, null], [2, 1.0, 2.0, 0, null, null]]})");
+}
+
+TEST(SweepFigure, LinesBreakBetweenPiecesAndSayWhatChanges) {
+  PlotRequest plot = of_kind(PlotKind::sweep);
+  plot.x = "gap";
+  const std::string text = svg_of(refined_table(), plot);
+  const SvgReader svg(text);
+  const auto [x, y] = testing::read_axes(svg);
+  const std::vector<SvgElement> lines = svg.with("series-line");
+  std::size_t parts = 0;
+  for (const SvgElement& line : lines) {
+    const std::string d = line.attribute("d");
+    parts += static_cast<std::size_t>(std::count(d.begin(), d.end(), 'M'));
+  }
+  EXPECT_EQ(parts, 3U) << "two pieces and a curve";
+  const std::vector<SvgElement> rings = svg.with("break-mark");
+  ASSERT_THAT(rings, SizeIs(2));
+  EXPECT_NEAR(rings[0].number("cx"), x.pixel(0.75), kPixel);
+  EXPECT_NEAR(rings[0].number("cy"), y.pixel(7.5), kPixel);
+  EXPECT_NEAR(rings[1].number("cx"), x.pixel(0.751), kPixel);
+  EXPECT_NEAR(rings[1].number("cy"), y.pixel(4.0), kPixel);
+  EXPECT_THAT(svg.texts(), Contains("jump, type: bifurcation to limit_max"));
+  EXPECT_THAT(text, HasSubstr("One break: jump, type: bifurcation to limit_max."));
+}
+
+/// Only the columns between the outputs and the error are those of a refined sweep.
+TEST(SweepFigure, AParameterMayBeNamedPiece) {
+  json table = refined_table();
+  table["columns"] = {"piece", "gap", "/summary/critical_load_factor", "/a", "/b", "error"};
+  PlotRequest plot = of_kind(PlotKind::sweep);
+  plot.x = "gap";
+  const SvgReader svg = read(svg_of(table, plot));
+  EXPECT_THAT(svg.with("break-mark"), IsEmpty());
+  EXPECT_THAT(svg.texts(), Contains("piece = 2"));
+}
+
 TEST(SweepFigure, RowsAreChosenByAValue) {
   PlotRequest plot = of_kind(PlotKind::sweep);
   plot.where = {{"t", "0.10"}};

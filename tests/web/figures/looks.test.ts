@@ -4,7 +4,7 @@ import {
   bucklingFigure, defaultQuantities, drawingFigure, frequencyFigure, hasFrequencies, lawChart, lawFigure, pathFigure, sectionsFigure, sweepLine, sweepMap, toText,
   type LawInput, type Shape,
 } from "../../../web/src/figures/index";
-import { classesOf, kCases, must, readCase, readTable, shapesOf, styleSheet } from "./support";
+import { classesOf, kCases, must, readCase, readTable, refinedTable, shapesOf, styleSheet } from "./support";
 
 const size = { width: 560, height: 420 };
 
@@ -38,6 +38,9 @@ function everyFigure(): Shape[] {
   const value = { column: "/summary/critical_load_factor" };
   figures.push(sweepLine({ table, x: { column: "k", log: true }, y: value, series: "EI", chosen: 3 }, size));
   figures.push(sweepMap({ table, x: { column: "k", log: true }, y: { column: "EI" }, value, chosen: 3 }, size));
+  const refined = refinedTable([1, 1.5]);
+  figures.push(sweepLine({ table: refined, x: { column: "t" }, y: value, series: ["k"] }, size));
+  figures.push(sweepMap({ table: refined, x: { column: "k" }, y: { column: "t" }, value }, size));
   return figures;
 }
 

@@ -44,6 +44,35 @@ export function readTable(name: string): Schemas["Table"] {
   return stored(name)["table"] as Schemas["Table"];
 }
 
+/** Members of a table that no program has computed. */
+export const kUnmade = { kind: "table", program: null, request_sha256: null, links: { request: "", job: "" } } as const;
+
+type Cells = Schemas["Table"]["rows"][number];
+
+export function tableOf(columns: string[], rows: Cells[]): Schemas["Table"] {
+  return { ...kUnmade, columns, rows, points: rows.map((_, i) => i) };
+}
+
+/**
+ * Curves of a refined sweep over `t` at values of `k`. The load of each rises as 10 k + t, is by 5 k lower from t = 3 k on, has another
+ * kind from t = 6 on, and none between 8 and 9. The rows of the curves are at different values of t.
+ */
+export function refinedTable(ks: readonly number[]): Schemas["Table"] {
+  const load = (k: number, t: number) => (t > 8 && t < 9 ? null : 10 * k + t - (t > 3 * k ? 5 * k : 0));
+  const rows = ks.flatMap((k) => [0, 1 + k / 4, 3 * k - 0.01, 3 * k + 0.01, 5.99, 6.01, 8, 8.02, 8.98, 9, 10].map((t, i): Cells => {
+    const change = { 3: "jump", 5: "type: limit_max to bifurcation", 7: "no value", 9: "value begins" }[i] ?? null;
+    const piece = [3, 5, 7, 9].filter((begin) => begin <= i).length;
+    return [k, t, load(k, t), t > 6 ? "bifurcation" : "limit_max", piece, change, null];
+  }));
+  return tableOf(["k", "t", "/summary/critical_load_factor", "/summary/critical_type", "piece", "change", "error"], rows);
+}
+
+/** The table without some of its columns. */
+export function without(table: Schemas["Table"], ...names: string[]): Schemas["Table"] {
+  const keep = <T>(cells: readonly T[]): T[] => cells.filter((_, i) => !names.includes(table.columns[i] ?? ""));
+  return { ...table, columns: keep(table.columns), rows: table.rows.map((row) => keep(row)) };
+}
+
 export function styleSheet(): string {
   return readFileSync(join(FIGURES, "figures.css"), "utf8");
 }

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pathTable, sectionTable, sweepTable, tableCsv, tableText } from "../../../web/src/figures/index";
-import { must, readCase, readTable } from "./support";
+import { must, readCase, readTable, refinedTable } from "./support";
 
 test("a path's table has every row of every branch, exactly", () => {
   const { request, result } = readCase("arch_branches");
@@ -59,6 +59,13 @@ test("a sweep's table has the number of each point and why it failed", () => {
   assert.deepEqual(table.columns, ["point", "soil stiffness", "EI", "critical load factor", "kind of critical point", "error"]);
   assert.match(String(table.rows[0]?.at(-1)), /^wrong_request: \/model\/sections\/0\/EI/);
   assert.deepEqual(must(table.rows[6]).slice(0, 3), [6, readTable("map").rows[6]?.[0], 1]);
+});
+
+test("the table of a refined sweep has the piece of each row and what changes there", () => {
+  const table = sweepTable(refinedTable([1]));
+  assert.deepEqual(table.columns.slice(-3), ["piece", "change", "error"]);
+  assert.deepEqual(must(table.rows[3]).slice(-3), [1, "jump", null]);
+  assert.deepEqual(must(table.rows[4]).slice(-3), [1, null, null]);
 });
 
 test("CSV is exact, quoted where it must be, and no text is a formula", () => {

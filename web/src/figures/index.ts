@@ -24,5 +24,6 @@ export {
 } from "./chart/frequencies";
 export { nearestInSweep, sweepLine, sweepLineChart, type SweepLineChart, type SweepLineInput } from "./chart/sweep_line";
 export { sweepMap, sweepMapChart, sweepMapLocate, type SweepMapChart, type SweepMapInput } from "./chart/sweep_map";
+export { changesOf, changeText, curveAxes, piecesOf } from "./chart/pieces";
 export { columnLabel, errorsOf, failureText, type SweepAxis, type Table } from "./chart/sweep";
 export { frequencyTable, lawTable, pathTable, sectionTable, sweepTable, tableCsv, tableText, type Cell, type FigureTable } from "./tables";

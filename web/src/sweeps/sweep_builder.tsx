@@ -6,7 +6,7 @@ import { service } from "../api/client";
 import { go } from "../app/router";
 import { formatNumber } from "../figures";
 import { parameterOf, type Slider } from "../model/sliders";
-import { pointerOf } from "../model/pointer";
+import { kWithin, outputsOf, sweepOf } from "../model/sweep_document";
 import { numberOf, readNumber } from "../model/typed_number";
 import { Trouble } from "../studio/trouble";
 
@@ -21,20 +21,6 @@ function rangeOf(sliders: readonly Slider[], index: number, count: number): Rang
   const slider = sliders[index];
   const plain = (value: number): string => String(Number(value.toPrecision(4)));
   return { slider: index, from: plain(slider?.min ?? 0), to: plain(slider?.max ?? 1), count: String(count) };
-}
-
-/** Outputs that answer most questions, by what the analysis gives. */
-function outputsOf(request: RequestDocument): string[] {
-  if (request.analysis.type === "buckling") return ["/buckling/load_factors/0"];
-  if (request.analysis.type === "vibration") return ["/vibrations/0/frequencies/omega_squared/0"];
-  const monitors = (request.model.monitors ?? []).slice(0, 3).map(({ id }) => id);
-  if (request.analysis.type === "static") {
-    const last = (request.analysis.load_factors?.length ?? 1) - 1;
-    return monitors.map((id) => pointerOf(["static", "monitors", id, last]));
-  }
-  const places = monitors.map((id) => pointerOf(["critical_points", 0, "monitors", id]));
-  const softest = ["/summary/softest/load_factor", "/summary/softest/stiffness_ratio"];
-  return ["/summary/critical_load_factor", "/summary/critical_type", "/summary/error_estimate", ...softest, ...places];
 }
 
 function parameters(sliders: readonly Slider[], ranges: readonly Range[]): SweepDocument["parameters"] | string {
@@ -73,9 +59,17 @@ function RangeFields({ sliders, range, label, onChange }: {
   );
 }
 
+/** What a sweep computes: a grid as it was typed, and where its curves need more. */
+function sizeText(points: number, refined: boolean): string {
+  const count = formatNumber(points, 6);
+  return refined ? `${count} analyses, and more until straight lines between rows are within ${formatNumber(100 * kWithin)} % of the curve.`
+                 : `${count} analyses, each computed alone.`;
+}
+
 export function SweepBuilder({ request, sliders }: { request: RequestDocument; sliders: readonly Slider[] }) {
   const [first, setFirst] = useState(() => rangeOf(sliders, 0, 41));
   const [second, setSecond] = useState<Range | null>(null);
+  const [refined, setRefined] = useState(true);
   const [trouble, setTrouble] = useState<unknown>(null);
   if (outputsOf(request).length === 0) {
     return <p class="hint">Give the model a monitor first: a sweep of static analyses lists what monitors read at the last load factor.</p>;
@@ -85,11 +79,8 @@ export function SweepBuilder({ request, sliders }: { request: RequestDocument; s
   const points = [first, ...(second ? [second] : [])].reduce((product, range) => product * (numberOf(range.count) ?? 0), 1);
   const submit = async (): Promise<void> => {
     if (typeof made === "string") return;
-    const output = { states: "none" as const, points_per_member: 2 };
     try {
-      const sweep = await service.submitSweep({
-        model: request.model, analysis: { ...request.analysis, output }, parameters: made, design: "grid", outputs: outputsOf(request),
-      });
+      const sweep = await service.submitSweep(sweepOf(request, made, refined));
       go(`#/sweeps/${sweep.id}`);
     } catch (error) {
       setTrouble(error);
@@ -104,8 +95,9 @@ export function SweepBuilder({ request, sliders }: { request: RequestDocument; s
             setFirst({ ...first, count: "21" });
             setSecond(rangeOf(sliders, first.slider === 0 ? 1 : 0, 21));
           }}>Add a second parameter</button> : null}
-      <p class={typeof made === "string" ? "wrong" : "hint"}>
-        {typeof made === "string" ? made : `${formatNumber(points, 6)} analyses, each computed alone.`}</p>
+      <label class="check"><input type="checkbox" checked={refined} onChange={(event) => setRefined(event.currentTarget.checked)} />
+        More values where the curve needs them</label>
+      <p class={typeof made === "string" ? "wrong" : "hint"}>{typeof made === "string" ? made : sizeText(points, refined)}</p>
       <Trouble error={trouble} />
       <button type="button" class="main" disabled={typeof made === "string"} onClick={() => void submit()}>Start the sweep</button>
     </div>

@@ -9,7 +9,7 @@ import { useSize } from "../app/size";
 import { badgeOf } from "../app/words";
 import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
-  columnLabel, errorsOf, formatNumber, nearestInSweep, sweepLine, sweepLineChart, sweepMap, sweepMapChart, sweepMapLocate,
+  changesOf, changeText, columnLabel, curveAxes, errorsOf, formatNumber, nearestInSweep, piecesOf, sweepLine, sweepLineChart, sweepMap, sweepMapChart, sweepMapLocate,
   sweepTable, type Pixel, type Shape, type Size, type SweepAxis,
 } from "../figures";
 import { place } from "../figures/chart/axes";
@@ -21,6 +21,7 @@ import { kindOf } from "../views/trust_card";
 
 const kReadAgain = 700;  // ms between readings of the table while rows come
 const kMostMarks = 4000;
+const kMostRead = 100;  // breaks of curves in the list for screen readers
 
 interface Shown {
   sweep: Sweep | null;
@@ -85,13 +86,18 @@ function pixelOf(frame: { x: Parameters<typeof place>[0]; y: Parameters<typeof p
   return pixel && Number.isFinite(pixel.x + pixel.y) ? pixel : null;
 }
 
-/** A chart over the first parameter, or a map over the first two. */
+/** What lines are drawn over and what tells them apart: the last parameter of a refined sweep and the others, else the first two. */
+function lineAxes(document: SweepDocument, table: Table): { x: string; series: readonly string[] } {
+  const [first, second] = document.parameters;
+  return curveAxes(table) ?? { x: first?.name ?? "", series: second ? [second.name] : [] };
+}
+
+/** A chart over one parameter, or a map over the first two. */
 function pictureOf(document: SweepDocument, table: Table, output: string, map: boolean, size: Size): Picture {
   const [first, second] = document.parameters;
-  const x = axisOf(document, first?.name ?? "");
   const value = { column: output };
   if (map && second) {
-    const input = { table, x, y: axisOf(document, second.name), value };
+    const input = { table, x: axisOf(document, first?.name ?? ""), y: axisOf(document, second.name), value };
     const chart = sweepMapChart(input, size);
     const spots = new Map(chart.spots.map((spot) => [spot.row, spot]));
     return {
@@ -99,7 +105,8 @@ function pictureOf(document: SweepDocument, table: Table, output: string, map: b
       placeOf: (row) => pixelOf(chart.frame, spots.get(row)),
     };
   }
-  const input = { table, x, y: value, ...(second ? { series: second.name } : {}) };
+  const { x, series } = lineAxes(document, table);
+  const input = { table, x: axisOf(document, x), y: value, series };
   const chart = sweepLineChart(input, size);
   const spots = new Map(chart.lines.flatMap((line) => line.spots).map((spot) => [spot.row, spot]));
   return {
@@ -117,15 +124,36 @@ function RowNote({ table, row, onOpen }: { table: Table; row: number | null; onO
   if (row === null) return <p class="hint">Point at the chart to read a point; click it to open that analysis.</p>;
   const cells = table.rows[row] ?? [];
   const error = errorsOf({ ...table, rows: [cells] })[0];
+  const change = piecesOf({ ...table, rows: [cells] })?.changes[0];
+  const shown = change === undefined ? table.columns : table.columns.slice(0, -3);
   return (
     <div class="note" role="status">
-      {table.columns.map((column, i) => {
+      {shown.map((column, i) => {
         const cell = cells[i];
         if (column === "error" || cell === null || cell === undefined || typeof cell === "object") return null;
         return <span key={column}>{columnLabel({ column })} <strong>{typeof cell === "number" ? formatNumber(cell, 5) : kindOf(String(cell))}</strong></span>;
       })}
+      {change ? <span>the curve breaks before this point: <strong>{changeText(change)}</strong></span> : null}
       {error ? <span class="wrong">{error.code.replace(/_/g, " ")}: {error.detail}</span> : null}
       <button type="button" onClick={() => onOpen(row)}>Open this analysis</button>
+    </div>
+  );
+}
+
+/** Where the curves of a refined sweep break, for those who do not see the chart. */
+function BreakList({ table }: { table: Table }) {
+  const changes = useMemo(() => changesOf(table), [table]);
+  if (changes.length === 0) return null;
+  const valueText = (value: unknown): string => (typeof value === "number" ? formatNumber(value, 5) : String(value));
+  return (
+    <div class="unseen">
+      <p>Where the curves break</p>
+      <ul>
+        {changes.slice(0, kMostRead).map(({ row, where, change }) => (
+          <li key={row}>{where.map(({ name, value }) => `${name} = ${valueText(value)}`).join(", ")}: {change}</li>
+        ))}
+        {changes.length > kMostRead ? <li>{changes.length - kMostRead} more, which the column change of the table names</li> : null}
+      </ul>
     </div>
   );
 }
@@ -219,6 +247,7 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
       }>
         {table.rows.length > kMostMarks && !map ? <p class="hint">{formatNumber(table.rows.length, 6)} rows</p> : null}
         <Chart document={document} table={table} output={output} map={map} chosen={chosen} onChosen={setChosen} onOpen={open} />
+        <BreakList table={table} />
         <div class="row-note"><RowNote table={table} row={chosen} onOpen={open} /></div>
       </Card>
       <Card title={`Table of ${formatNumber(table.rows.length, 6)} rows`} class="table-card">
@@ -239,7 +268,7 @@ export function SweepView({ id }: { id: string }) {
         {sweep ? (
           <div class="progress-row">
             <span class={badgeOf(sweep.status)}>{sweep.status}</span>
-            <progress max={sweep.points} value={sweep.points - sweep.counts.remaining} aria-label="Rows that are there" />
+            <progress max={sweep.points} value={sweep.points - sweep.counts.remaining} aria-label={document?.refine ? "Curves that are there" : "Rows that are there"} />
             <span>{sweep.message}</span>
             {busy ? <button type="button" onClick={() => void service.dismissSweep(id).then(again, again)}>Dismiss</button>
               : <button type="button" onClick={() => void service.deleteSweep(id).then(() => go("#/sweeps"), again)}>Delete</button>}

@@ -52,7 +52,7 @@ export function SweepsView() {
         <div class="scroller" tabIndex={0} role="region" aria-label="Table of sweeps">
           <table class="list">
             <thead><tr><th scope="col">State</th><th scope="col" class="left">Model</th><th scope="col" class="left">Label</th>
-              <th scope="col">Rows</th><th scope="col">Failed</th><th scope="col">Submitted</th>
+              <th scope="col">Done</th><th scope="col">Failed</th><th scope="col">Submitted</th>
               <th scope="col"><span class="unseen">Actions</span></th></tr></thead>
             <tbody>{list?.sweeps.map((sweep) => <Row key={sweep.id} sweep={sweep} onChanged={again} />)}</tbody>
           </table>

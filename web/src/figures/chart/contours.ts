@@ -8,6 +8,8 @@ export interface Grid {
   x: readonly number[];
   y: readonly number[];
   values: readonly number[];
+  /** Whether lines may be drawn in the cell between (i, j) and (i + 1, j + 1); they may in all cells when left out. */
+  isJoined?: ((i: number, j: number) => boolean) | undefined;
 }
 
 /** Where the line between two corners crosses the level; null when it does not. */
@@ -38,7 +40,7 @@ export function contours(grid: Grid, levels: readonly number[]): [Pixel, Pixel][
   const pieces: [Pixel, Pixel][][] = levels.map(() => []);
   const columns = grid.x.length;
   for (let j = 0; j + 1 < grid.y.length; ++j) {
-    for (let i = 0; i + 1 < columns; ++i) addCell(grid, i, j, levels, pieces);
+    for (let i = 0; i + 1 < columns; ++i) if (grid.isJoined?.(i, j) ?? true) addCell(grid, i, j, levels, pieces);
   }
   return pieces;
 }

@@ -5,7 +5,7 @@ import { coordinate, figure, group, label, line, path, shape, type Pixel, type S
 import { frameShapes, makeScale, place, plotArea, widened, type Frame } from "./axes";
 import { computedRows, type Branch, type PathResult, type Result } from "./curves";
 import { legendHeight, legendShape, markEntries, type LegendEntry } from "./legend";
-import { mark } from "./marks";
+import { mark, type MarkKind } from "./marks";
 
 type Frequencies = components["schemas"]["Frequencies"];
 type Mode = components["schemas"]["Mode"];
@@ -125,7 +125,10 @@ function legendEntries(input: FrequencyInput, series: readonly Series[]): Legend
   const kinds = new Set(series.flatMap(({ rows }) => rows.flatMap(({ motions }) => motions.map(({ kind }) => kind))));
   const entries: LegendEntry[] = [];
   if (kinds.has("flutters")) entries.push({ text: "pair that flutters", line: "path unstable" });
-  return [...entries, ...markEntries(new Set(flutterMarks(input.result, series).length > 0 ? ["flutter"] : []))];
+  if (series.some(({ branch, rows }) => branch !== 0 && rows.some(({ motions }) => motions.length > 0))) {
+    entries.push({ text: "branch", line: "path branch stable" });
+  }
+  return [...entries, ...markEntries(new Set(criticalMarks(input.result, series).map(({ kind }) => kind)))];
 }
 
 /** Lays the frequencies of a result out: load factor across, circular frequency upward. */
@@ -170,17 +173,19 @@ function motionLines(frame: Frame, rows: readonly Row[], number: number, classNa
 }
 
 /**
- * Places at which flutter begins: rows at the load factor of such a critical point, at the first motion that flutters there or,
- * since the critical load is rounded, in the row beyond.
+ * Critical points on the path at the rows of their load factors: flutter at the first motion that flutters there or, since the
+ * critical load is rounded, in the row beyond; others at the motion of the lowest frequency.
  */
-function flutterMarks(result: FrequencySource, series: readonly Series[]): { row: Row; motion: Motion }[] {
-  return result.critical_points.filter(({ type }) => type === "flutter").flatMap((point) => {
+function criticalMarks(result: FrequencySource, series: readonly Series[]): { kind: MarkKind; row: Row; motion: Motion }[] {
+  return result.critical_points.filter(({ type }) => type !== "broken_bifurcation" && type !== "capacity").flatMap((point) => {
     const rows = series.find(({ branch }) => branch === point.branch)?.rows ?? [];
     const at = rows.findIndex(({ load }) => Math.abs(load - point.load_factor) <= 1e-9 * Math.abs(point.load_factor));
     const row = rows[at];
     const beyond = [row, rows[at + 1]].map((one) => one?.motions.findIndex(({ kind }) => kind === "flutters") ?? -1);
-    const motion = row?.motions[beyond.find((number) => number >= 0) ?? -1];
-    return row && motion ? [{ row, motion }] : [];
+    const lowest = (row?.motions ?? []).reduce<Motion | undefined>((low, one) =>
+      (low && Math.abs(low.omega) <= Math.abs(one.omega) ? low : one), undefined);
+    const motion = point.type === "flutter" ? row?.motions[beyond.find((number) => number >= 0) ?? -1] : lowest;
+    return row && motion ? [{ kind: point.type, row, motion }] : [];
   });
 }
 
@@ -212,7 +217,7 @@ export function frequencyFigure(input: FrequencyInput, size: Size, chart: Freque
     const className = branch === 0 ? "path" : "path branch";
     return Array.from({ length: count }, (_, number) => motionLines(frame, rows, number, className)).flat();
   });
-  const marks = flutterMarks(input.result, series).map(({ row, motion }) => mark("flutter", pixelOf(frame, row, motion)));
+  const marks = criticalMarks(input.result, series).map(({ kind, row, motion }) => mark(kind, pixelOf(frame, row, motion)));
   const empty = lines.length > 0 || hasFrequencies(input.result) ? null
     : label("muted", { x: (frame.x.start + frame.x.end) / 2, y: (frame.y.start + frame.y.end) / 2 }, "middle", "no frequencies");
   return figure("chart frequency-chart", size, "Circular frequency against load factor", plotArea(frame), frameShapes(frame, size),

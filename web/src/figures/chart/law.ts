@@ -95,8 +95,9 @@ function dotsOf(law: DrawnLaw, curve: ReactionCurve): LawPoint[] {
 export function lawLabels({ list, support, units }: LawInput): { w: string; p: string; unit: string } {
   const turns = list === "springs" && support["direction"] === "rotation";
   const unit = unitOf(units, turns ? "moment" : list === "springs" ? "force" : "line_load");
+  const beyond = typeof support["gap"] === "object" && support["gap"] !== null ? " beyond the gap" : "";
   return {
-    w: withUnit(turns ? "rotation w" : "displacement w", unitOf(units, turns ? "rotation" : "length")),
+    w: withUnit((turns ? "rotation w" : "displacement w") + beyond, unitOf(units, turns ? "rotation" : "length")),
     p: withUnit(turns ? "moment p" : "reaction p", unit), unit,
   };
 }

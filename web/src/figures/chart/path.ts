@@ -294,18 +294,18 @@ export function chosenShape(chart: PathChart, chosen: ChosenPoint | null | undef
   return group("chosen", shape("circle", { class: "chosen-ring", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 6.5 }));
 }
 
-/** The rows of a static analysis of few steps as dots, or on request the computed ones of every branch. */
+/** The rows of a static analysis of few steps as dots, and a row that is alone on its branch; on request the computed ones of every branch. */
 function rowDots({ frame, curves }: PathChart, { result, points }: PathInput): Shape | null {
   const branches = branchesOf(result);
-  const dots = curves.flatMap(({ branch, vertices }) => {
+  const all = result.branches.length > 0 ? points : curves.every(({ vertices }) => vertices.length <= 200);
+  const dots = curves.filter(({ vertices }) => all || vertices.length === 1).flatMap(({ branch, vertices }) => {
     const rows = branches[branch];
     const computed = new Set(rows && computedRows(rows));
     const pixels = vertices.filter(({ row }) => row !== null && computed.has(row)).map((vertex) => pixelOf(frame, vertex));
     return pixels.filter((pixel) => inside(frame, pixel)).map(({ x, y }) =>
       shape("circle", { class: branch === 0 ? "row" : "row branch", cx: coordinate(x), cy: coordinate(y), r: 2.5 }));
   });
-  const shown = result.branches.length > 0 ? points : dots.length <= 200;
-  return shown ? group("rows", ...dots) : null;
+  return dots.length > 0 ? group("rows", ...dots) : null;
 }
 
 /**

@@ -7,6 +7,7 @@ import { formatNumber } from "../numbers";
 import { coordinate, figure, group, label, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
 import { fewRound, frameShapes, leftRoom, makeScale, place, plotArea, roundStep, widened, type Frame, type Scale } from "./axes";
 import { contours } from "./contours";
+import { evenCells, evenValues, joinedCells, mapBreaks, mapBreakShapes, piecesAlong, type MapBreak, type Spot } from "./map_curves";
 import { columnLabel, columnOf, errorsOf, extentOf, failureText, type Column, type RowError, type SweepAxis, type Table } from "./sweep";
 
 export interface SweepMapInput {
@@ -20,18 +21,9 @@ export interface SweepMapInput {
 
 export const kBands = 12;  // classes band-0 ... band-11 of figures.css
 
-/** A row of the table on the map. */
-interface Spot {
-  row: number;
-  x: number;
-  y: number;
-  value: number;
-  error: RowError | null;
-}
-
 export interface SweepMapChart {
   frame: Frame;
-  /** Distinct values of both parameters, increasing. */
+  /** Distinct values of both parameters, increasing; `ys` are even values where the curves of a refined sweep go along y. */
   xs: number[];
   ys: number[];
   /** Borders of cells in pixels, one more than values. */
@@ -40,6 +32,10 @@ export interface SweepMapChart {
   /** Spot of each cell, row after row; null where no point is done. Empty when the points are no grid. */
   cells: (Spot | null)[];
   spots: Spot[];
+  /** How many rows failed with which code; "" when none did. */
+  failures: string;
+  /** Where the curves of a refined sweep break, and which of their cells contour lines pass between; null for other sweeps. */
+  curves: { breaks: MapBreak[]; isJoined: (i: number, j: number) => boolean } | null;
   /** Borders between bands, increasing. */
   levels: number[];
   size: Size;
@@ -116,32 +112,42 @@ function barWidth(levels: readonly number[]): number {
   return 62 + levels.reduce((most, level) => Math.max(most, textWidth(formatNumber(level))), 0);
 }
 
+/** The rows that have a place on the map. */
+function spotsOf(input: SweepMapInput, x: Column, y: Column, value: Column): Spot[] {
+  const errors = errorsOf(input.table);
+  return x.values.flatMap((where, row) => {
+    const spot = { row, x: where, y: at(y.values, row), value: at(value.values, row), error: errors[row] ?? null };
+    return Number.isFinite(spot.x + spot.y) ? [spot] : [];
+  });
+}
+
 /** Lays the map out. */
 export function sweepMapChart(input: SweepMapInput, size: Size): SweepMapChart {
   const x = columnOf(input.table, input.x.column);
   const y = columnOf(input.table, input.y.column);
   const value = columnOf(input.table, input.value.column);
-  const errors = errorsOf(input.table);
-  const spots = x.values.flatMap((where, row) => {
-    const spot = { row, x: where, y: at(y.values, row), value: at(value.values, row), error: errors[row] ?? null };
-    return Number.isFinite(spot.x + spot.y) ? [spot] : [];
-  });
+  const spots = spotsOf(input, x, y, value);
+  const [xLog, yLog] = [input.x.log ?? false, input.y.log ?? false];
   const xs = distinct(x.values);
-  const ys = distinct(y.values);
-  const top = failureText(errors) === "" && spots.every((spot) => Number.isFinite(spot.value)) ? 12 : 28;
+  const rowValues = distinct(y.values);
+  const pieces = y.names || rowValues.length < 2 ? null : piecesAlong(input.table, input.y.column);
+  const ys = pieces ? evenValues(rowValues, yLog, size) : rowValues;
+  const failures = failureText(errorsOf(input.table));
+  const top = failures === "" && spots.every((spot) => Number.isFinite(spot.value)) ? 12 : 28;
   const [low, high] = extentOf(value.values, input.value.log);
   const levels = bandLevels(low, high, input.value.log);
   const upright = {
-    y: cellScale(y, ys, input.y.log ?? false, Math.max(60, size.height - 44), top), yNames: y.names ?? undefined, yValues: fewRound(ys),
+    y: cellScale(y, ys, yLog, Math.max(60, size.height - 44), top), yNames: y.names ?? undefined, yValues: fewRound(ys),
   };
   const left = Math.max(66, leftRoom(upright));
   const frame = {
-    ...upright, x: cellScale(x, xs, input.x.log ?? false, left, Math.max(left + 24, size.width - barWidth(levels))),
+    ...upright, x: cellScale(x, xs, xLog, left, Math.max(left + 24, size.width - barWidth(levels))),
     xLabel: columnLabel(input.x), yLabel: columnLabel(input.y), xNames: x.names ?? undefined, xValues: fewRound(xs),
   };
+  const cells = pieces ? evenCells(spots, xs, ys, yLog, pieces) : gridCells(spots, xs, ys);
   return {
-    frame, xs, ys, xEdges: edges(frame.x, xs), yEdges: edges(frame.y, ys), cells: gridCells(spots, xs, ys), spots,
-    levels, size,
+    frame, xs, ys, xEdges: edges(frame.x, xs), yEdges: edges(frame.y, ys), cells, spots, failures, levels, size,
+    curves: pieces && { breaks: mapBreaks(spots, xs, pieces), isJoined: joinedCells(cells, xs.length, pieces) },
   };
 }
 
@@ -196,6 +202,7 @@ function contourShapes(chart: SweepMapChart, taken: Occupancy): Shape {
     x: chart.xs.map((value) => place(chart.frame.x, value)),
     y: chart.ys.map((value) => place(chart.frame.y, value)),
     values: chart.cells.map((spot) => spot?.value ?? Number.NaN),
+    isJoined: chart.curves?.isJoined,
   };
   const lines: Shape[] = [];
   const texts: (Shape | null)[] = [];
@@ -224,7 +231,8 @@ function failedShapes(chart: SweepMapChart): Shape {
   const failed = chart.spots.filter((spot) => spot.error !== null);
   const narrowest = (list: readonly number[]) =>
     list.reduce((least, edge, i) => (i === 0 ? least : Math.min(least, Math.abs(edge - at(list, i - 1)))), Infinity);
-  const half = Math.min(4, Math.max(1, 0.3 * Math.min(narrowest(chart.xEdges), narrowest(chart.yEdges))));
+  const cell = Math.min(narrowest(chart.xEdges), chart.curves ? Infinity : narrowest(chart.yEdges));
+  const half = Math.min(4, Math.max(1, 0.3 * cell));
   const d = failed.map((spot) => crossData({ x: place(chart.frame.x, spot.x), y: place(chart.frame.y, spot.y) }, half)).join("");
   return shape("path", { class: "mark failed", d });
 }
@@ -250,7 +258,7 @@ function barShape(chart: SweepMapChart, name: string): Shape {
 
 /** What the marks above the map mean: points that failed, and analyses without this output. */
 function keyShapes(chart: SweepMapChart): Shape[] {
-  const failures = failureText(chart.spots.map((spot) => spot.error));
+  const { failures } = chart;
   const left = chart.frame.x.start;
   const shapes = failures === "" ? [] : [
     shape("path", { class: "mark failed", d: crossData({ x: left + 4, y: 10 }, 4) }), label("muted", { x: left + 14, y: 14 }, "start", failures),
@@ -264,7 +272,8 @@ function keyShapes(chart: SweepMapChart): Shape[] {
 
 /**
  * A map of an output over two parameters, as the table has them (docs/sweeps.md): cells of a grid that reach half way to their
- * neighbours, or dots where the points are no grid. Contour lines are linear between the centres of cells.
+ * neighbours, or dots where the points are no grid. The curves of a refined sweep are cut into even cells, with strokes where
+ * they break. Contour lines are linear between the centres of cells.
  */
 export function sweepMap(input: SweepMapInput, size: Size, chart: SweepMapChart = sweepMapChart(input, size)): Shape {
   const taken = new Occupancy(size);
@@ -275,7 +284,8 @@ export function sweepMap(input: SweepMapInput, size: Size, chart: SweepMapChart 
   const chosen = chart.spots.find((spot) => spot.row === input.chosen);
   return figure("chart sweep-map", size, `${name} over ${chart.frame.xLabel} and ${chart.frame.yLabel}`,
                 frameShapes(chart.frame, size), ...(chart.cells.length > 0 ? bandShapes(chart) : dotShapes(chart)),
-                contourShapes(chart, taken), failedShapes(chart), plotArea(chart.frame), barShape(chart, name),
+                contourShapes(chart, taken), ...mapBreakShapes(chart.curves?.breaks ?? [], chart.xEdges, chart.frame.y, taken),
+                failedShapes(chart), plotArea(chart.frame), barShape(chart, name),
                 chosen ? shape("circle", { class: "chosen-ring open", cx: coordinate(place(chart.frame.x, chosen.x)),
                                            cy: coordinate(place(chart.frame.y, chosen.y)), r: 6.5 }) : null,
                 ...keyShapes(chart));

@@ -1,0 +1,43 @@
+#pragma once
+/// @file
+/// The law of a spring or foundation of a model: its reaction p over the displacement w into the medium.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/plot/document.h"
+#include "solver/support/law.h"
+
+namespace snapthrough::api::plot {
+
+/// Reaction of a law at one place of its member.
+struct LawCurve {
+  double fraction = 0;       ///< place on the member, as a fraction of its length
+  Law law;                   ///< one-sided supports: for displacements beyond the gap
+  double reach = 0;          ///< displacement at which p is 90 % of the capacity or more; 0: p is zero
+  std::vector<double> ends;  ///< ascending displacements > 0 at which a part of p ends
+};
+
+/// A spring or foundation with a `law`, in the model's units.
+struct SupportLaw {
+  std::string id;
+  std::string type;         ///< name of the law's form in the document, such as "tanh"
+  std::string reaction;     ///< "bilateral", "compression_only" or "tension_only"
+  bool is_spring = false;   ///< true: p is a force; false: a force per length
+  bool turns = false;       ///< rotational spring: w is a rotation in rad, p a moment
+  double gap = 0;           ///< displacement before a one-sided support reacts
+  bool gap_varies = false;  ///< the gap varies along the member; `gap` is then 0
+  /// One curve; three, at the start, the middle and the end of the range, where numbers vary along the
+  /// member.
+  std::vector<LawCurve> curves;
+  std::shared_ptr<const ReactionCurve> form;  ///< owns what the laws of the curves refer to
+};
+
+/// @brief Reads the law of a spring or foundation.
+/// @param id of the spring or foundation; nullopt: the first one with a law, springs first
+/// @throws PlotError when the model has no such support, or the law breaks a rule of docs/requests.md, "Laws"
+[[nodiscard]] SupportLaw read_support_law(const Field& model, const std::optional<std::string>& id);
+
+}  // namespace snapthrough::api::plot
