@@ -34,6 +34,7 @@ FREE = ("JsonValue", "JsonObject")
 RECEIVED_NAMES = {"Result": "ResultFields"}
 # Parameters of builders that take shorter forms than the contract: schema, type, function that makes the document.
 CONVERTED = {"Location": ("Place", "as_place"), "[SweepTarget]": ("Targets", "as_targets"),
+             "SweepRefine": ("Refine", "as_refine"),
              "Model": ("Any", "as_document"), "ModelTemplate": ("Any", "as_document"),
              "Analysis": ("Any", "as_document"), "AnalysisTemplate": ("Any", "as_document")}
 
@@ -573,7 +574,8 @@ class Builders:
                 + "from dataclasses import dataclass, field\n"
                 + "from typing import Any, ClassVar, List, Literal, Mapping, Optional, Sequence, Tuple, TypeVar, "
                 + "Union\n\nfrom . import documents\n"
-                + "from ._buildable import AnalysisBase, Buildable, Place, Targets, as_place, as_targets, given\n\n"
+                + "from ._buildable import AnalysisBase, Buildable, Place, Refine, Targets, as_place, as_targets, "
+                + "given\n\n"
                 + '_Self = TypeVar("_Self", bound="Buildable")\n' + "\n".join(self.lines) + "\n")
 
 

@@ -12,6 +12,9 @@ Place = Union[str, Tuple[str, float], documents.Location]
 #: Where a parameter is written: a JSON Pointer, the contract's object, or a list of either.
 Targets = Union[str, documents.SweepTarget, Sequence[Union[str, documents.SweepTarget]]]
 
+#: How a sweep is refined: the pointer of the output that decides, or the contract's object.
+Refine = Union[str, documents.SweepRefine]
+
 _B = TypeVar("_B", bound="Buildable")
 
 

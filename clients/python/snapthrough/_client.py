@@ -6,6 +6,7 @@ import uuid
 from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
 
 from . import _events, _spans, results
+from ._engine import Batch
 from ._errors import AnalysisFailed, Cancelled, Interrupted, ServiceError, SnapthroughError, invalid
 from ._events import Event
 from ._http import Response, Transport, problem_of, service_error
@@ -134,12 +135,13 @@ class Client:
 
         Raises InvalidRequest at once when the sweep has mistakes. Points that fail are rows with an "error".
         """
-        status = self.submit_sweep(sweep, label=label, metadata=metadata)
+        document = as_bytes(sweep)
+        status = self.submit_sweep(document, label=label, metadata=metadata)
         ends = stop or Stop()
-        first = self.table(status, count=1)
+        first = self._part(status, 0, 1)
         about: Dict[str, Any] = {"program": first.program, "request_sha256": first.request_sha256}
-        return SweepRun(first.columns, status.points, self._batches(status, ends, about), on_progress, progress, ends,
-                        about)
+        batches = self._batches(status, ends, about, first.refined)
+        return SweepRun(first.columns, status.points, batches, on_progress, progress, ends, about, document)
 
     def submit_sweep(self, sweep: Any, *, label: Optional[str] = None, metadata: Optional[Mapping[str, str]] = None,
                      callback: Optional[str] = None) -> results.Sweep:
@@ -157,18 +159,14 @@ class Client:
         return results.Sweep(self._wait(_sweep(sweep)))
 
     def table(self, sweep: SweepId, first: int = 0, count: Optional[int] = None) -> Table:
-        """The rows that are there of points from `first` on, in the order of points."""
+        """The rows that are there of points from `first` on, in the order of points.
+
+        Of a refined sweep `first` and `count` number its curves or surfaces.
+        """
         status = sweep if isinstance(sweep, results.Sweep) else self.sweep_status(sweep)
-        end = status.points if count is None else min(status.points, first + count)
-        table: Optional[Table] = None
-        for begin in range(first, max(end, first + 1), _ROWS):
-            part = f"?format=json&first={begin}&count={max(1, min(_ROWS, end - begin))}"
-            text = self._checked(self._http.send("GET", _sweep(sweep) + "/table" + part)).body.decode("utf-8")
-            others, rows = _spans.parts_of_table(text)
-            table = table or Table(others["columns"], status.points, others)
-            for point, (row, own) in zip(others["points"], rows):
-                table.append(point, row, own)
-        assert table is not None
+        table = self._part(status, first, status.points if count is None else count)
+        if table.refined:
+            table.with_sweep(self._json("GET", _sweep(sweep) + "/request"))
         return table
 
     def sweep_events(self, sweep: SweepId, last_id: str = "") -> Iterator[Event]:
@@ -276,7 +274,35 @@ class Client:
         if response.status not in (200, 404, 409):
             raise service_error(response)
 
-    def _batches(self, status: results.Sweep, stop: Stop, about: Dict[str, Any]) -> Batches:
+    def _part(self, status: results.Sweep, first: int, count: int) -> Table:
+        """The rows that are there of points, or of curves or surfaces of a refined sweep."""
+        end = min(status.points, first + count)
+        table: Optional[Table] = None
+        for begin in range(first, max(end, first + 1), _ROWS):
+            part = f"?format=json&first={begin}&count={max(1, min(_ROWS, end - begin))}"
+            text = self._checked(self._http.send("GET", _sweep(status) + "/table" + part)).body.decode("utf-8")
+            others, rows = _spans.parts_of_table(text)
+            table = table or Table(others["columns"], status.points, others)
+            for point, (row, own) in zip(others["points"], rows):
+                table.append(point, row, own)
+        assert table is not None
+        if table.refined and first == 0 and end == status.points:
+            table.done = status.points - status.counts.remaining
+        return table
+
+    def _next_batch(self, status: results.Sweep, first: int, about: Dict[str, Any], refined: bool) -> Batch:
+        """The rows that follow those of the first points; one curve or surface at a time of a refined sweep.
+
+        Only the rows of one curve tell by their being there that it is done: rows do not say which curve they are of.
+        """
+        table = self._part(status, first, 1 if refined else _ROWS)
+        about["program"] = table.program
+        rows = [(number, (row, table.text_of(index)))
+                for index, (number, row) in enumerate(zip(table.points, table.rows))
+                if refined or number == first + index]
+        return (min(1, len(rows)) if refined else len(rows)), rows
+
+    def _batches(self, status: results.Sweep, stop: Stop, about: Dict[str, Any], refined: bool) -> Batches:
         """Rows as they come, in the order of points; whatever ends this early dismisses the sweep.
 
         `about` gets what computed them.
@@ -287,14 +313,10 @@ class Client:
         try:
             for _ in self.sweep_events(status):
                 while point < status.points:
-                    table = self.table(status, point, _ROWS)
-                    about["program"] = table.program
-                    batch = [(number, (row, table.text_of(index)))
-                             for index, (number, row) in enumerate(zip(table.points, table.rows))
-                             if number == point + index]
-                    if not batch:
+                    batch = self._next_batch(status, point, about, refined)
+                    if not batch[1]:
                         break
-                    point += len(batch)
+                    point += batch[0]
                     yield batch
             if stop.requested:
                 raise Cancelled()

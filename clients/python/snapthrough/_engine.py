@@ -21,8 +21,12 @@ _ATTEMPTS = 3
 Part = Tuple[int, bytes, float]
 #: Computes `count` points from `first` on. Executors of other processes pickle it.
 Task = Callable[[int, int], Part]
+#: Number of a row's point, and the row with its text.
+Row = Tuple[int, Element]
 #: The rows of a part; raises what the library told instead.
-RowsOf = Callable[[int, bytes], List[Element]]
+RowsOf = Callable[[int, bytes], List[Row]]
+#: How many points have their row by a batch, and these rows; of a refined sweep, how many curves or surfaces.
+Batch = Tuple[int, List[Row]]
 #: An executor, or what makes a new one when workers of the last one died.
 ExecutorOrFactory = Union[Executor, Callable[[], Executor]]
 #: First point, number of points.
@@ -112,8 +116,8 @@ class Engine:
         self._suspects = 0
         self._running: "Dict[Future[Any], _Chunk]" = {}
 
-    def run(self) -> Iterator[Tuple[int, List[Element]]]:
-        """First points and rows of chunks, in the order in which they end."""
+    def run(self) -> Iterator[Tuple[int, Batch]]:
+        """First points and batches of chunks, in the order in which they end."""
         try:
             while self._spans or self._again or self._running:
                 self._fill()
@@ -155,7 +159,7 @@ class Engine:
         self._left -= size
         return _Chunk(first, size)
 
-    def _collect(self, done: "Iterable[Future[Any]]") -> Iterator[Tuple[int, List[Element]]]:
+    def _collect(self, done: "Iterable[Future[Any]]") -> Iterator[Tuple[int, Batch]]:
         broken: List[_Chunk] = []
         cause: Optional[BaseException] = None
         for future in done:
@@ -170,7 +174,7 @@ class Engine:
             status, text, seconds = future.result()
             self._learn(chunk, seconds)
             self._suspects = max(0, self._suspects - 1) if chunk.attempts else self._suspects
-            yield chunk.first, self._rows_of(status, text)
+            yield chunk.first, (chunk.count, self._rows_of(status, text))
         if cause is not None:
             self._died(broken, cause)
 
@@ -218,8 +222,7 @@ def missing_spans(total: int, unit: int, there: Sequence[int]) -> List[Span]:
     return spans
 
 
-def in_order(batches: Iterator[Tuple[int, List[Element]]], known: Dict[int, Element],
-             total: int) -> Iterator[List[Tuple[int, Element]]]:
+def in_order(batches: Iterator[Tuple[int, Batch]], known: Dict[int, Element], total: int) -> Iterator[Batch]:
     """Rows in the order of their points: those that were known and those that come, each when its turn is there."""
     waiting: Dict[int, Element] = dict(known)
     point = 0
@@ -234,11 +237,25 @@ def in_order(batches: Iterator[Tuple[int, List[Element]]], known: Dict[int, Elem
 
     first_rows = ready()
     if first_rows:
-        yield first_rows
-    for first, rows in batches:
-        waiting.update((first + index, row) for index, row in enumerate(rows))
+        yield len(first_rows), first_rows
+    for _, (_, rows) in batches:
+        waiting.update(rows)
         now = ready()
         if now:
-            yield now
+            yield len(now), now
     if point < total:
         raise SnapthroughError(f"rows from point {point} on are missing")
+
+
+def curves_in_order(batches: Iterator[Tuple[int, Batch]], total: int) -> Iterator[Batch]:
+    """Batches of a refined sweep in the order of its curves or surfaces, whose numbers of rows are not known before."""
+    waiting: Dict[int, Batch] = {}
+    done = 0
+    for first, batch in batches:
+        waiting[first] = batch
+        while done in waiting:
+            now = waiting.pop(done)
+            done += now[0]
+            yield now
+    if done < total:
+        raise SnapthroughError(f"rows of the curves or surfaces from number {done} on are missing")

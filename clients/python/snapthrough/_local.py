@@ -12,6 +12,7 @@ from ._errors import AnalysisFailed, Cancelled, Interrupted, LibraryNotFound, Sn
 from ._library import Answer, Library
 from ._model import request_of
 from ._progress import OnProgress, Progress, Stop
+from ._refine import is_refined
 from ._result import Result, show_warnings
 from ._spans import Element
 from ._sweeping import Batches, SweepRun
@@ -94,7 +95,7 @@ class Local:
             progress: Whether a bar is shown on standard error; by default on a terminal and in a notebook.
             stop: Stops the sweep from another thread.
             resume: Rows that are there already, as a Table or the path of a JSON table or NDJSON; they are not
-                computed again. A path that does not exist is a table without rows.
+                computed again. A path that does not exist is a table without rows. Not for a refined sweep.
 
         Raises InvalidRequest at once when the sweep has mistakes. Points that fail are rows with an "error".
         """
@@ -113,15 +114,18 @@ class Local:
             path = os.path.abspath(self.library) if os.path.exists(self.library) else None
             task = functools.partial(_chunks.compute_chunk, document, path)
         spans = _engine.missing_spans(total, unit, list(known))
-        engine = _engine.Engine(task, functools.partial(_rows_of, document), spans, unit, pool, workers)
-        batches = _stopped(_engine.in_order(engine.run(), known, total), native.request, ends)
-        return SweepRun(columns, total, batches, on_progress, progress, ends, head)
+        parts = _engine.Engine(task, functools.partial(_rows_of, document), spans, unit, pool, workers).run()
+        ordered = (_engine.curves_in_order(parts, total) if is_refined(columns)
+                   else _engine.in_order(parts, known, total))
+        batches = _stopped(ordered, native.request, ends)
+        return SweepRun(columns, total, batches, on_progress, progress, ends, head, document)
 
     def plot(self, document: Any, **options: Any) -> str:
         """Draws a result or a table as SVG text, as `snapthrough plot` does.
 
         `document` is a Result, a Table, or the JSON text of one. `options` are the choices of
-        docs/howto/plot-results.md: kind ("path", "shape", "sections", "mode", "sweep" or "heatmap"), width, height,
+        docs/howto/plot-results.md: kind ("path", "shape", "sections", "mode", "model", "law", "frequencies",
+        "stiffness", "sweep" or "heatmap"), width, height,
         dark, state, mode, monitor and so on; solved_request={"model": model, "analysis": analysis} lets supports,
         ground and loads be drawn. Raises InvalidRequest with a pointer that begins with "choices:" where one is
         wrong, and UsageError when the library is too old to plot.
@@ -185,12 +189,13 @@ def _interrupted(answer: Answer) -> Interrupted:
         return Interrupted()
 
 
-def _rows_of(document: bytes, status: int, text: bytes) -> List[Element]:
+def _rows_of(document: bytes, status: int, text: bytes) -> List[_engine.Row]:
     if status == _library.CANCELLED:
         raise Cancelled()
     if status != _library.DONE:
         raise failure_of(Answer(status, text))
-    return _spans.parts_of_table(text.decode("utf-8"))[1]
+    others, rows = _spans.parts_of_table(text.decode("utf-8"))
+    return list(zip(others["points"], rows))
 
 
 def _stopped(batches: Batches, action: Callable[[], None], stop: Stop) -> Batches:
@@ -210,6 +215,9 @@ def _known_rows(resume: Optional[Resume], columns: Sequence[str], total: int) ->
     if resume is None or (not isinstance(resume, Table) and not os.path.exists(resume)):
         return {}
     table = resume if isinstance(resume, Table) else read_table(resume)
+    if len(table) and is_refined(columns):
+        raise UsageError("resume: rows of a refined sweep cannot be taken over; they do not say whether their curve is "
+                         "complete")
     if len(table) and table.columns != list(columns):
         raise UsageError(f"resume: its columns are {table.columns}, those of the sweep {list(columns)}")
     if any(point >= total for point in table.points):

@@ -6,6 +6,7 @@ from typing import Any, Dict, List, Optional, TypeVar, Union
 from . import documents
 from ._buildable import AnalysisBase
 from ._builders import Buckling, Critical, ModelFields, Path, Static, SweepFields, Vibration
+from ._refine import as_refine, check_refined
 
 _M = TypeVar("_M", bound="Model")
 
@@ -62,7 +63,28 @@ class Sweep(SweepFields):
 
         sweep = Sweep(model, Critical(), "grid", ["/summary/critical_load_factor"])
         sweep.parameter("K", "/model/foundations/0/stiffness", range={"from": 1, "to": 1000, "count": 50})
+
+    With `refine` points are added over the last parameter, or over the last two, until straight lines between rows
+    are near enough to an output. It is the pointer of that output, for lines within 1 % of its value, or a dictionary
+    (documents.SweepRefine). The design must be "grid", and a refined parameter must have a range; else `document`
+    raises ValueError.
+
+        sweep = Sweep(model, Critical(), "grid", ["/summary/critical_load_factor"],
+                      refine={"output": "/summary/critical_load_factor", "within": 0.001})
     """
+
+    def __post_init__(self) -> None:
+        if self.refine is not None:
+            as_refine(self.refine)  # so that a mistake is told where it is made
+
+    @property
+    def document(self) -> Dict[str, Any]:
+        """The document: the fields that are required, and others that are neither None nor an empty list."""
+        fields = super().document
+        if self.refine is not None:
+            fields["refine"] = as_refine(self.refine)
+            check_refined(fields)
+        return fields
 
 
 def request_of(model: Any, analysis: Optional[Any] = None) -> Any:

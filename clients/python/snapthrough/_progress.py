@@ -15,8 +15,10 @@ class Progress:
     """How far a call is.
 
     Fields:
-        done: sweeps: points that have their row; analyses: steps along the branch.
-        total: sweeps: points of the sweep; analyses: 0, since their number is not known.
+        done: sweeps: points that have their row, refined sweeps: curves or surfaces that have theirs; analyses: steps
+            along the branch.
+        total: sweeps: points of the sweep, refined sweeps: its curves or surfaces; analyses: 0, since their number is
+            not known.
         load_factor: of the last point of the path; sweeps: 0.
         branch: index of the path's branch, from 0; sweeps: 0.
         negative_eigenvalues: of the tangent stiffness; 0 is stable, -1 not counted; sweeps: 0.

@@ -1,13 +1,13 @@
 """A sweep that is being computed: an iterator over its rows that keeps them."""
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, Mapping, Optional, Sequence
 
+from ._engine import Batch
 from ._errors import Cancelled, Interrupted
 from ._progress import OnProgress, Progress, ProgressLine, Stop
-from ._spans import Element
 from ._table import Table
 
-#: Rows in the order of points, some at a time: the number of the point, the row and its text.
-Batches = Iterator[List[Tuple[int, Element]]]
+#: Rows in the order of points, some at a time.
+Batches = Iterator[Batch]
 
 
 class SweepRun(Iterator[Dict[str, Any]]):
@@ -19,15 +19,19 @@ class SweepRun(Iterator[Dict[str, Any]]):
         run.table().to_csv("table.csv")
 
     Points are computed while somebody asks for rows. `columns` are the names of the columns, `total` is the number of
-    points. Ctrl-C raises Interrupted, a Stop or a callback that gives False raises Cancelled; both have `reached`, the
-    table as far as it came.
+    points; of a refined sweep, the number of curves or surfaces, each of which has all its rows at once. Ctrl-C raises
+    Interrupted, a Stop or a callback that gives False raises Cancelled; both have `reached`, the table as far as it
+    came.
     """
 
     def __init__(self, columns: Sequence[str], total: int, batches: Batches, on_progress: Optional[OnProgress],
-                 progress: Optional[bool], stop: Stop, about: Optional[Mapping[str, Any]] = None) -> None:
+                 progress: Optional[bool], stop: Stop, about: Optional[Mapping[str, Any]] = None,
+                 sweep: Any = None) -> None:
         self.columns = list(columns)
         self.total = total
         self._table = Table(columns, total, about)
+        if sweep is not None and self._table.refined:
+            self._table.with_sweep(sweep)
         self._batches = batches
         self._on_progress = on_progress
         self._line = ProgressLine(total, progress)
@@ -71,7 +75,8 @@ class SweepRun(Iterator[Dict[str, Any]]):
         return self._table[self._given - 1]
 
     def __repr__(self) -> str:
-        return f"SweepRun({len(self._table)} of {self.total} rows; columns {', '.join(self.columns)})"
+        of_total = "" if self._table.refined else f" of {self.total}"
+        return f"SweepRun({len(self._table)}{of_total} rows; columns {', '.join(self.columns)})"
 
     def _advance(self) -> bool:
         """Takes the next rows; false when there are no more."""
@@ -86,14 +91,17 @@ class SweepRun(Iterator[Dict[str, Any]]):
             self._close()
             raise
 
-    def _take(self, batch: Optional[List[Tuple[int, Element]]]) -> bool:
+    def _take(self, batch: Optional[Batch]) -> bool:
         if batch is None:
             self._close()
             return False
-        for point, (row, text) in batch:
+        count, rows = batch
+        for point, (row, text) in rows:
             self._table.append(point, row, text)
             self._failed += row[-1] is not None
-        now = Progress(done=len(self._table), total=self.total, failed=self._failed)
+        if self._table.refined:
+            self._table.done += count
+        now = Progress(done=self._table.done, total=self.total, failed=self._failed)
         self._line.show(now)
         if self._on_progress is not None and self._on_progress(now) is False:
             self._stop.request()

@@ -3,7 +3,9 @@ import json
 import os
 from typing import IO, Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
 
-from . import _spans
+from . import _spans, _table_plot
+from ._interpolation import Interpolation
+from ._refine import Refinement, is_refined, names_of, refinement_of
 
 #: A file by its path, or one that is open for text.
 Target = Union[str, "os.PathLike[str]", IO[str]]
@@ -41,6 +43,13 @@ class Table:
     order; `points` has the number of each row's point, from 0; `total` is the number of points of the sweep. A row's
     "error" is None, or {"code", "detail"} of a point that failed. Iterating gives each row as a dictionary. `program`
     and `request_sha256` tell what computed the rows, and of which document; None where that is not known.
+
+    The table of a refined sweep has two columns before "error". "piece" counts from 0 along each curve of the last
+    parameter, and rows of different pieces must not be joined by a line. A single row without value between two rows
+    with values belongs to the piece before it. "change" is a text in the first row of each piece but the first, such as
+    "type: limit_max to bifurcation", "jump" or "no value". `total` is the number of such curves (of surfaces, where two
+    parameters are refined), and the numbers in `points` have gaps. A curve or surface that failed as a whole is one
+    row, in which the refined parameters, "piece" and "change" are None.
     """
 
     def __init__(self, columns: Sequence[str], total: int, about: Optional[Mapping[str, Any]] = None) -> None:
@@ -49,13 +58,21 @@ class Table:
         self.total = total
         self.rows: List[List[Any]] = []
         self.points: List[int] = []
+        #: Number of points that have their row; of a refined sweep, number of curves or surfaces with all their rows.
+        self.done = 0
         self._texts: List[str] = []
+        self._refined = is_refined(self.columns)
+        self._refinement: Optional[Refinement] = None
+        self._interpolation: Optional[Interpolation] = None
 
     def append(self, point: int, row: List[Any], text: str) -> None:
-        """Adds a row and the JSON text that it came as."""
+        """Adds a row and the JSON text that it came as; the caller counts `done` where the sweep is refined."""
         self.rows.append(row)
         self.points.append(point)
         self._texts.append(text)
+        self._interpolation = None
+        if not self._refined:
+            self.done += 1
 
     @property
     def program(self) -> Optional[Dict[str, str]]:
@@ -70,9 +87,40 @@ class Table:
         return digest
 
     @property
+    def refined(self) -> bool:
+        """Whether the sweep was refined, so that the table has the columns "piece" and "change"."""
+        return self._refined
+
+    def with_sweep(self, sweep: Any) -> "Table":
+        """Tells the table of a refined sweep which parameters were refined, and gives the table itself.
+
+        `sweep` is the Sweep that the table is of, or its document as a dictionary or JSON text. interpolated() needs it
+        where the table was read from a file. Raises ValueError for a sweep that is not refined.
+        """
+        if self._refined:
+            self._refinement = refinement_of(sweep)
+            self._interpolation = None
+        return self
+
+    @property
+    def refinement(self) -> Optional[Refinement]:
+        """The refined output and parameters; None where the table does not know the document of the sweep."""
+        return self._refinement
+
+    @property
+    def parameters(self) -> List[str]:
+        """The names of the parameters among the columns."""
+        return names_of(self.columns)[0]
+
+    @property
+    def outputs(self) -> List[str]:
+        """The pointers of the outputs among the columns."""
+        return names_of(self.columns)[1]
+
+    @property
     def complete(self) -> bool:
-        """Whether every point of the sweep has its row."""
-        return len(self.rows) == self.total
+        """Whether every point of the sweep has its row, or every curve of a refined sweep its rows."""
+        return self.done == self.total
 
     @property
     def failed(self) -> int:
@@ -83,6 +131,42 @@ class Table:
         """The values of a column, one a row."""
         at = self.columns.index(name)
         return [row[at] for row in self.rows]
+
+    def interpolated(self, values: Mapping[str, Any]) -> Optional[float]:
+        """The refined output between the rows of a refined sweep.
+
+        Arguments:
+            values: A value for each parameter by its name. A refined parameter may have any number; the others must
+                have a value, or the label of a value, that is in the table.
+
+        Where one parameter is refined, the value lies on the straight line between two neighbouring rows of the same
+        piece. Where two are, it is blended from the curves on both sides: pieces reach from the blend of their first
+        rows to the blend of their last ones with a value if both curves have as many, else the values at the same
+        place are blended. Lines are straight over the logarithm of a parameter whose range has the spacing log.
+
+        Returns None between two pieces, outside the rows, and where rows have no value. Raises ValueError for values
+        that do not fit the table, and for a table that is not refined or does not know the document of its sweep.
+
+            table.interpolated({"EI": 100, "K": 12.5})
+        """
+        if not self._refined:
+            raise ValueError("interpolated: the sweep of this table was not refined")
+        if self._refinement is None:
+            raise ValueError("interpolated: the table does not know which parameters were refined; give it the "
+                             "document of its sweep: table.with_sweep(document)")
+        if self._interpolation is None:
+            self._interpolation = Interpolation(self.columns, self.rows, self._refinement)
+        return self._interpolation.value_at(values)
+
+    def plot(self, output: Optional[str] = None, ax: Any = None) -> Any:
+        """Draws an output over the last parameter with matplotlib and gives the axes back.
+
+        Rows with equal values of all other parameters are a line, which breaks where a row has no value. The lines of
+        a refined sweep also break between pieces. A ring marks the row at which a piece begins, and at most six changes
+        are named, the first of each kind before others. `output` is a pointer, by default that of the refined output or
+        else of the first one.
+        """
+        return _table_plot.draw(self, output, ax)
 
     def text_of(self, index: int) -> str:
         """The JSON text of a row, as it was received."""
@@ -99,7 +183,10 @@ class Table:
 
     def __repr__(self) -> str:
         failed = f", {self.failed} with an error" if self.failed else ""
-        return f"Table({len(self.rows)} of {self.total} rows{failed}; columns {', '.join(self.columns)})"
+        rows = f"{len(self.rows)} of {self.total} rows"
+        if self._refined:
+            rows = f"{len(self.rows)} rows" + ("" if self.complete else ", not complete")
+        return f"Table({rows}{failed}; columns {', '.join(self.columns)})"
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame with the columns of the table, and the numbers of points as its index."""
@@ -170,22 +257,28 @@ def _deliver(pieces: Iterator[str], target: Optional[Target]) -> Optional[str]:
     return None
 
 
-def read_table(path: Union[str, "os.PathLike[str]"]) -> Table:
+def read_table(path: Union[str, "os.PathLike[str]"], sweep: Any = None) -> Table:
     """Reads a JSON table or NDJSON, as the package, the command line and the service write them.
 
-    A last line of NDJSON that was cut off, as when its writer was killed, is left out.
+    A last line of NDJSON that was cut off, as when its writer was killed, is left out. `sweep` is what
+    Table.with_sweep() takes; the table of a refined sweep needs it to interpolate.
     """
     with open(path, encoding="utf-8", newline="") as file:
         text = file.read()
     first = text.split("\n", 1)[0].rstrip()
     if first.endswith("}") and first.startswith("{"):
-        return _read_ndjson(text)
+        return _told(_read_ndjson(text), sweep)
     others, rows = _spans.parts_of_table(text)
     points = others.get("points") or range(len(rows))
     table = Table(others["columns"], len(rows), others)
     for point, (row, own) in zip(points, rows):
         table.append(point, row, own)
-    return table
+    table.done = table.total
+    return _told(table, sweep)
+
+
+def _told(table: Table, sweep: Any) -> Table:
+    return table if sweep is None else table.with_sweep(sweep)
 
 
 def _read_ndjson(text: str) -> Table:
@@ -197,5 +290,5 @@ def _read_ndjson(text: str) -> Table:
         table = table or Table(list(row), 0)
         table.append(point, list(row.values()), "[" + ",".join(texts) + "]")
     result = table or Table([], 0)
-    result.total = len(result.rows)
+    result.total = result.done = len(result.rows)
     return result

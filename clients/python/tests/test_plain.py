@@ -27,7 +27,7 @@ PROGRAM = textwrap.dedent("""
         result = solver.solve(request)
         table = solver.sweep(sweep, progress=True).table()
         found.append((result.branches[0].monitors["crown"], result.columns("critical_points"), table.to_csv()))
-        for call in (result.to_pandas, result.to_numpy, result.plot, table.to_pandas, table.to_numpy):
+        for call in (result.to_pandas, result.to_numpy, result.plot, table.to_pandas, table.to_numpy, table.plot):
             try:
                 call()
             except ImportError:

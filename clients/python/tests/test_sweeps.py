@@ -4,6 +4,7 @@ import io
 import json
 import os
 import pathlib
+import random
 import sys
 import tempfile
 import unittest
@@ -94,6 +95,46 @@ class Forms(Case):
     def test_a_curve_that_is_followed_is_one_unit(self):
         text = FOLLOWED.read_text(encoding="utf-8")
         self.assertEqual(local().sweep(text).table().to_csv(), command_line("sweep", "--csv", "-", text=text))
+
+
+class Refined(Case):
+    """The buckling load of a column over the stiffness of its base, on which the number of waves depends."""
+
+    FACTOR = "/buckling/load_factors/0"
+
+    def setUp(self):
+        super().setUp()
+        sweep = snapthrough.Sweep(column(), snapthrough.Buckling(), "grid", [self.FACTOR], refine=self.FACTOR)
+        sweep.parameter("K", "/model/foundations/0/stiffness",
+                        range={"from": 1, "to": 1000, "count": 5, "spacing": "log"})
+        self.text = json.dumps(sweep.document)
+
+    def factor_at(self, stiffness):
+        """The load factor of an analysis of its own."""
+        request = {name: json.loads(self.text)[name] for name in ("model", "analysis")}
+        request["model"]["foundations"][0]["stiffness"] = stiffness
+        return json.loads(command_line("solve", "-", text=json.dumps(request)))["buckling"]["load_factors"][0]
+
+    def test_values_between_the_rows_of_a_file_are_near_those_of_own_analyses(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "column.json")
+            path.write_text(command_line("sweep", "-", text=self.text), encoding="utf-8")
+            table = snapthrough.read_table(path, sweep=self.text)
+        self.assertEqual(table.to_csv(), command_line("sweep", "--csv", "-", text=self.text))
+        pieces = table.column("piece")
+        self.assertEqual((pieces, sorted(set(pieces))), (sorted(pieces), [0, 1, 2]))
+        begins = [at for at in range(1, len(pieces)) if pieces[at] != pieces[at - 1]]
+        self.assertEqual([at for at, change in enumerate(table.column("change")) if change is not None], begins)
+        draws = random.Random(1)
+        for stiffness in (10 ** draws.uniform(0, 3) for _ in range(20)):
+            own = self.factor_at(stiffness)
+            self.assertAlmostEqual(table.interpolated({"K": stiffness}), own, delta=0.01 * own)
+
+    def test_files_are_those_of_the_command_line_byte_for_byte(self):
+        table = local().sweep(self.text).table()
+        self.assertEqual(table.to_csv(), command_line("sweep", "--csv", "-", text=self.text))
+        self.assertEqual(table.to_json(), command_line("sweep", "-", text=self.text))
+        self.assertEqual(table.to_ndjson(), command_line("sweep", "--ndjson", "-", text=self.text))
 
 
 class Resuming(Case):
