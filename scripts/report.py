@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Runs the examples of the thesis and of the gallery through the command line and compares them with published values.
 
-  scripts/report.py SNAPTHROUGH              writes docs/thesis/ (needs gnuplot) and docs/gallery/
-  scripts/report.py SNAPTHROUGH --check      only compares; exit status 1 when a value is off or lacking, or a page of the gallery
-                                             has another number than is found
+  scripts/report.py SNAPTHROUGH              writes docs/thesis/ and docs/gallery/
+  scripts/report.py SNAPTHROUGH --check      only compares; exit status 1 when a value is off or lacking, a page of the gallery has
+                                             another number than is found, or a line of a design chart is more than 1 % off
   ... --gallery [NAME]                       only the gallery, or one page of it
   scripts/report.py --self-test              checks the report itself
 

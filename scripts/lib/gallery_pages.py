@@ -4,12 +4,19 @@ import re
 import tempfile
 import textwrap
 
-from lib.gallery_charts import DOCS, draw_chart, draw_figure, failed_rows
+from lib.gallery_charts import DOCS, check_chart, draw_chart, draw_figure
+from lib.gallery_refined import SHARE, refined_self_test
 from lib.gallery_values import PAGES, Runs, page_data, page_values, quantile
 
 CASES = ("| problem | what | published | found | error at most | difference | source; why they differ |", "| --- | --- | --- | --- | --- | --- | --- |")
 HEAD = ("| what | published | found | error at most | difference | source; why they differ |", "| --- | --- | --- | --- | --- | --- |")
+LINES = (f"Straight lines between the computed points are within {100 * SHARE:g} % of the answer; a line breaks where the answer jumps "
+         "or its kind changes.")
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+
+
+def page_text(name):
+    return (PAGES / f"{name}.md").read_text(encoding="utf-8")
 
 
 def significant(value, digits):
@@ -49,7 +56,7 @@ def cases(pages):
     """All rows of {page: values} in one table, which names the page."""
     yield from CASES
     for name, values in pages.items():
-        title = (PAGES / f"{name}.md").read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
+        title = page_text(name).partition("\n")[0].lstrip("# ")
         yield from (f"| [{title}]({name}.md) {row}" for row in rows(values))
 
 
@@ -72,12 +79,10 @@ def wrapped(text):
 
 def filled(name, values, tables):
     """The page with {NAME} as a value or as the lines of a table."""
-    text = (PAGES / f"{name}.md").read_text(encoding="utf-8")
-
     def put(match):
         return "\n".join(tables[match[1]]) if match[1] in tables else shown(values[match[1]])
 
-    return wrapped(re.sub(r"\{(\w+)\}", put, text))
+    return wrapped(re.sub(r"\{(\w+)\}", put, page_text(name)))
 
 
 def differences(page, expected):
@@ -117,30 +122,35 @@ def draw(data, runs):
 
 
 def check_page(name, runs, write):
-    """(mistakes, values) of a page; writes it and its pictures when asked to."""
+    """(mistakes, values, numbers compared in charts) of a page; writes it and its pictures when asked to."""
     data = page_data(name)
     values = page_values(data, runs)
     wrong = [f"gallery, {name}, {value.entry['name']}: {value.wrong()}" for value in values.values() if value.wrong()]
-    wrong += [mistake for chart in data.get("chart", []) for mistake in failed_rows(chart, runs)]
-    wrong += check_text(name, filled(name, values, {"values": [*HEAD, *rows(values)]}), write)
+    compared = 0
+    for chart in data.get("chart", []):
+        more_wrong, more = check_chart(chart, runs)
+        wrong, compared = wrong + more_wrong, compared + more
+    if any("sweep" in chart for chart in data.get("chart", [])) and "{lines}" not in page_text(name):
+        wrong.append(f"gallery/pages/{name}.md does not say {{lines}} under its charts")
+    wrong += check_text(name, filled(name, values, {"values": [*HEAD, *rows(values)], "lines": [LINES]}), write)
     if write:
         draw(data, runs)
-    return wrong, values
+    return wrong, values, compared
 
 
 def gallery(program, write, only=None):
     """(mistakes, numbers compared, run times) of all pages, or of one; writes them and their pictures when asked to."""
     runs = Runs(program)
-    wrong, pages = [], {}
+    wrong, pages, compared = [], {}, 0
     for name in [only] if only else names():
-        more_wrong, pages[name] = check_page(name, runs, write)
-        wrong += more_wrong
+        more_wrong, pages[name], more = check_page(name, runs, write)
+        wrong, compared = wrong + more_wrong, compared + more
     if not only:
         index = filled("README", {}, {"cases": list(cases(pages))})
         wrong += check_text("README", index, write)
         if write:  # results of the problems of the page, which have no page of their own
             draw({"figure": [{"file": f"page_{name}", "request": f"../{name}"} for name in re.findall(r'"page_(\w+)\.svg"', index)]}, runs)
-    return wrong, sum(map(len, pages.values())), runs.seconds
+    return wrong, compared + sum(map(len, pages.values())), runs.seconds
 
 
 def gallery_self_test():
@@ -154,4 +164,4 @@ def gallery_self_test():
         "items of lists": wrapped("- a\n  b\n- c\n") == "- a b\n- c\n",
         "quantile": quantile([3.0, 1.0, 2.0], 0.5) == 2.0,
     }
-    return [name for name, right in checks.items() if not right]
+    return [name for name, right in checks.items() if not right] + refined_self_test()

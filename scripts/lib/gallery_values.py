@@ -7,19 +7,23 @@ default NAME.json) with `changes` {JSON Pointer: value}, and `found`, an arithme
   limit(TYPE, n)    is the load factor of the nth critical point (from 1) of a type,
   at(POINTER)       is a number of the request with its changes.
 
-In place of a request it may have a `chart`, whose rows are random samples; found is then an expression with quantile(SHARE).
+In place of a request it may have a `chart`; found is then an expression with quantile(SHARE) of critical load factors where its rows
+are random samples, before(n, COLUMN) and after(n, COLUMN) where it is refined: the rows on both sides of the nth change (from 1).
 A value of the page's table has `published` (an expression, too), `tolerance`, `what`, `source` and `why`: found / published - 1 is
 within the tolerance of `expected` (0).
 """
 import copy
 import json
 import math
+import subprocess
+import time
 import tomllib
 
 from lib.thesis_data import ROOT, run_program
 
 EXAMPLES = ROOT / "examples" / "gallery"
 PAGES = EXAMPLES / "pages"
+POINTS_FAILED = 3  # exit status of a sweep whose table has rows with an error
 NUMBERS = {name: getattr(math, name) for name in ("pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan2", "hypot", "sinh", "cosh",
                                                   "tanh")}
 NUMBERS |= {"abs": abs, "min": min, "max": max, "sum": sum, "len": len, "__builtins__": {}}
@@ -39,6 +43,10 @@ def request_with(name, changes):
         target = resolved(request, parent)
         target[int(last) if isinstance(target, list) else last] = copy.deepcopy(value)
     return request
+
+
+def chart_document(chart):
+    return json.loads((EXAMPLES / "charts" / f"{chart}.json").read_text(encoding="utf-8"))
 
 
 class Value:
@@ -78,11 +86,18 @@ class Runs:
 
     def table(self, chart):
         """Columns and rows of examples/gallery/charts/CHART.json."""
-        key = f"charts/{chart}"
-        if key not in self.results:
-            self.results[key], seconds = run_program([self.program, "sweep", str(EXAMPLES / f"{key}.json")], key)
-            self.seconds.append(f"{seconds:8.2f} s  gallery/{key}.json, {len(self.results[key]['rows'])} points")
-        return self.results[key]
+        return self.swept(f"charts/{chart}.json", chart_document(chart))
+
+    def swept(self, name, document):
+        """Columns and rows of a sweep, whose name says all that differs between sweeps. Points may have failed."""
+        if name not in self.results:
+            start = time.monotonic()
+            done = subprocess.run([self.program, "sweep", "-"], input=json.dumps(document), capture_output=True, text=True, check=False)
+            if done.returncode not in (0, POINTS_FAILED):
+                raise SystemExit(f"{name}: exit status {done.returncode}: {done.stderr.strip()}")
+            self.results[name] = json.loads(done.stdout)
+            self.seconds.append(f"{time.monotonic() - start:8.2f} s  gallery/{name}, {len(self.results[name]['rows'])} points")
+        return self.results[name]
 
 
 def quantile(numbers, share):
@@ -104,11 +119,30 @@ def estimate_at(result, pointer):
     return result[kind]["error_estimate"] if rest == ["critical_load_factor"] else None
 
 
+def chart_names(table):
+    """What expressions can use of a sweep's table: its samples, and the rows before and after each change."""
+    columns, rows = table["columns"], table["rows"]
+    changes = [i for i, row in enumerate(rows) if "change" in columns and row[columns.index("change")] is not None]
+
+    def cells(some, column):
+        return [row[columns.index(column)] for row in some]
+
+    def beside(number, column, step):
+        if number > len(changes):
+            raise SystemExit(f"a chart has {len(changes)} changes, and the value of {column} beside number {number} is asked for")
+        return cells(rows, column)[changes[number - 1] + step]
+
+    return {
+        "quantile": lambda share: quantile(cells((row for row in rows if row[-1] is None), "/summary/critical_load_factor"), share),
+        "before": lambda number, column: beside(number, column, -1),
+        "after": lambda number, column: beside(number, column, 0),
+    }
+
+
 def evaluate(entry, runs):
     if "chart" in entry:
-        table = runs.table(entry["chart"])
-        column = [row[table["columns"].index("/summary/critical_load_factor")] for row in table["rows"]]
-        return Value(entry, eval(entry["found"], NUMBERS | {"quantile": lambda share: quantile(column, share)}), None, None, None)
+        names = NUMBERS | chart_names(runs.table(entry["chart"]))
+        return Value(entry, eval(entry["found"], names), eval(entry["published"], NUMBERS) if "published" in entry else None, None, None)
     request, result = runs.result(entry["request"], entry.get("changes", {}))
     estimates = []
 
