@@ -9,7 +9,12 @@ Prints a table; the plot shows computed time as a share of what the cores could 
 
 import argparse
 import heapq
+import pathlib
 import random
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts"))
+from lib.chart import Axes, Curve, chart  # noqa: E402
 
 
 class Servers:
@@ -51,29 +56,10 @@ def simulate(workers, cores, costs, longest, sweeps, until=20.0, seed=1):
 
 
 def svg(curves, file):
-    """Efficiency over worker cores, on a logarithmic scale."""
-    import math
-    width, height, left, bottom = 640, 360, 60, 40
-    def place(workers, share):
-        return (left + (width - left - 20) * (math.log10(workers) - 1) / 3, height - bottom - (height - bottom - 20) * share)
-    colours = ["#1b6ca8", "#c44e52", "#55a868", "#8172b2"]
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">',
-           f'<rect width="{width}" height="{height}" fill="white"/>']
-    for share in (0, 0.25, 0.5, 0.75, 1):
-        y = place(10, share)[1]
-        out.append(f'<line x1="{left}" x2="{width - 20}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>'
-                   f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{share:.0%}</text>')
-    for workers in (10, 100, 1000, 10000):
-        x = place(workers, 0)[0]
-        out.append(f'<text x="{x:.1f}" y="{height - bottom + 18}" text-anchor="middle">{workers}</text>')
-    out.append(f'<text x="{(left + width) / 2}" y="{height - 6}" text-anchor="middle">worker cores</text>')
-    for number, (name, points) in enumerate(curves):
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in (place(*point) for point in points))
-        out.append(f'<polyline points="{path}" fill="none" stroke="{colours[number]}" stroke-width="2"/>'
-                   f'<text x="{left + 10}" y="{height - bottom - 70 + 16 * number}" fill="{colours[number]}">{name}</text>')
-    out.append("</svg>\n")
-    with open(file, "w", encoding="utf-8") as target:
-        target.write("\n".join(out))
+    """Computed share over worker cores, on a logarithmic scale."""
+    axes = Axes("Share of the workers' time that they compute", "worker cores", "share of time", y_range=(0, 1), logarithmic="x", percent=True)
+    drawn = [Curve(name, [points], number, mark="dot", dashed=True) for number, (name, points) in enumerate(curves)]
+    pathlib.Path(file).write_text(chart(axes, drawn), encoding="utf-8")
 
 
 def main():

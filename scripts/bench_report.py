@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Writes docs/performance/ from the JSON that bench_performance leaves: tables, and SVG plots by gnuplot.
+"""Writes docs/performance/ from the JSON that bench_performance leaves: tables, figures, and the points that these show.
 
   scripts/bench_report.py PERFORMANCE_JSON
+  scripts/bench_report.py --figures           only draws the figures anew, from the points in docs/performance/figures.json
 """
 import json
 import math
 import pathlib
-import subprocess
 import sys
 
-DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs" / "performance"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from lib import bench_figures  # noqa: E402
+from lib.bench_figures import DOCS, plotted  # noqa: E402
+
 TITLES = {"column": "Column on a base, k = 100", "shallow_arch": "Shallow arch, no base",
           "shallow_arch_k1e7": "Shallow arch, base outside, k = 1e7",
           "shallow_arch_k1e9": "Shallow arch, base outside, k = 1e9", "deep_arch": "Deep arch, 215 degrees",
@@ -33,27 +36,6 @@ KERNELS = [("dense", "linearise", "interiors eliminated: all unknowns factorised
             "factors reused within a correction: one for each right-hand side, against one"),
            ("linearise", "residual", "linearise() against the residual alone"),
            ("linearise", "solve", "linearise() against one solve")]
-
-
-WIDTH, HEIGHT = 720, 480  # px of a plot
-
-
-def plot(title, xlabel, ylabel, curves):
-    """An SVG document; curves: (title, points, style); both axes logarithmic."""
-    commands = [f"set terminal svg size {WIDTH},{HEIGHT} font 'sans,13' background 'white'",
-                f"set title \"{title}\"\nset xlabel '{xlabel}'\nset ylabel '{ylabel}'",
-                "set logscale xy\nset format y '1e%L'\nset grid\nset key outside right", ""]
-    commands.append("plot " + ", ".join(f"'-' with {style} title \"{label}\"" for label, _, style in curves))
-    for _, points, _ in curves:
-        commands += [f"{x} {y}" for x, y in points] + ["e"]
-    return subprocess.run(["gnuplot"], input="\n".join(commands), text=True, check=True, stdout=subprocess.PIPE).stdout
-
-
-def beside(plots):
-    """One SVG document with plots from left to right."""
-    parts = [text[text.index("<svg"):].rstrip().replace("<svg", f'<svg x="{i * WIDTH}"', 1) for i, text in enumerate(plots)]
-    size = f'width="{len(plots) * WIDTH}" height="{HEIGHT}" viewBox="0 0 {len(plots) * WIDTH} {HEIGHT}"'
-    return "\n".join(['<?xml version="1.0" encoding="utf-8"?>', f'<svg {size} xmlns="http://www.w3.org/2000/svg">', *parts, "</svg>\n"])
 
 
 def write(name, text):
@@ -80,7 +62,8 @@ def growth_rate(runs):
 
 
 def precision_pages(by_group):
-    """Tables and plots of error against time and unknowns, case by case."""
+    """Writes tables of error against time and unknowns, case by case. Returns what their figures show."""
+    figures = {}
     text = ["# Work and precision\n", "Relative error of the first critical load against CPU milliseconds, all in one run of "
             "`scripts/bench.sh`.\nCurves *asked*: the requested accuracy, nothing else set. *Order p*: fixed "
             "meshes of that order, 4 to 128 elements.\n"]
@@ -100,11 +83,12 @@ def precision_pages(by_group):
                 points = [(r[key], max(r["error"], 1e-14)) for r in meshes
                           if r["parts"][2] == order and math.isfinite(r.get("error", math.nan)) and r["error"] < 1]
                 if points:
-                    curves.append((f"order {order}", points, "linespoints"))
-            curves.append(("asked", [(r[key], max(r["error"], 1e-14)) for r in asked], "points pt 7 ps 1"))
-            plots.append(plot(title, label, "relative error", curves))
-        write(f"{case}.svg", beside(plots))
+                    curves.append((f"order {order}", points))
+            curves.append(("asked", [(r[key], max(r["error"], 1e-14)) for r in asked]))
+            plots.append(plotted(title, label, "relative error", curves))
+        figures[case] = plots
     write("precision.md", "\n".join(text))
+    return figures
 
 
 def compared(rows, a, b, what):
@@ -112,7 +96,7 @@ def compared(rows, a, b, what):
 
 
 def summary_page(by_group):
-    """Targets, growth, bases and what is skipped."""
+    """Writes targets, growth, bases and what is skipped. Returns what the figures of growth and bases show."""
     text = ["# Measured performance\n",
             "`scripts/bench.sh` writes this page: all numbers are of one run, in CPU milliseconds.\n"
             "[performance.md](../performance.md) explains them; [work and precision](precision.md) has every case.\n"]
@@ -134,15 +118,14 @@ def summary_page(by_group):
                      f"{1e3 * r['cpu_time'] / r['unknowns'] / r['factorizations']:.3f}") for r in growth])]
     text.append(f"Time grows with the unknowns to the power {growth_rate(growth):.2f}.\n")
     almost_linear = [(r["unknowns"], growth[0]["cpu_time"] * (r["unknowns"] / growth[0]["unknowns"])**1.1) for r in growth]
-    write("growth.svg", plot("Four steps of an arch", "unknowns", "CPU ms",
-                             [("measured", [(r["unknowns"], r["cpu_time"]) for r in growth], "linespoints"),
-                              ("n^{1.1}", almost_linear, "lines")]))
+    figures = {"growth": [plotted("Four steps of an arch", "unknowns", "CPU ms",
+                                  [("measured", [(r["unknowns"], r["cpu_time"]) for r in growth]), ("n^{1.1}", almost_linear)])]}
     bases = sorted(by_group[("bases",)], key=lambda r: int(r["parts"][1]))
     text += ["## Growth with bases\n", "![Time against bases](bases.svg)\n",
              table(["bases", "elements", "factorisations", "ms"],
                    [(r["parts"][1], int(r["elements"]), int(r["factorizations"]), ms(r)) for r in bases])]
-    write("bases.svg", plot("Shallow arch, base outside cut into pieces", "bases", "CPU ms",
-                            [("measured", [(int(r["parts"][1]), r["cpu_time"]) for r in bases], "linespoints")]))
+    figures["bases"] = [plotted("Shallow arch, base outside cut into pieces", "bases", "CPU ms",
+                                [("measured", [(int(r["parts"][1]), r["cpu_time"]) for r in bases])])]
     skips = {r["parts"][1]: r for r in by_group[("skip",)]}
     text += ["## What is not done\n",
              table(["skipped", "with, ms", "without, ms", "ratio"],
@@ -151,11 +134,14 @@ def summary_page(by_group):
     text += ["Parts of one correction, five elements of order 5 without base:\n",
              table(["what", "with, ms", "without, ms", "ratio"], [compared(kernels, *pair) for pair in KERNELS])]
     write("README.md", "\n".join(text))
+    return figures
 
 
 def main():
     if len(sys.argv) != 2:
         raise SystemExit(__doc__)
+    if sys.argv[1] == "--figures":
+        return bench_figures.draw()
     DOCS.mkdir(parents=True, exist_ok=True)
     runs = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))["benchmarks"]
     by_group = {}
@@ -163,8 +149,8 @@ def main():
         run["parts"] = run["name"].split("/")
         named = run["parts"][0] in ("accuracy", "mesh")
         by_group.setdefault(tuple(run["parts"][:2 if named else 1]), []).append(run)
-    precision_pages(by_group)
-    summary_page(by_group)
+    bench_figures.write(precision_pages(by_group) | summary_page(by_group))
+    return bench_figures.draw()
 
 
 if __name__ == "__main__":

@@ -16,8 +16,10 @@ TEST_PACKAGES=(valgrind clang-format python3 postgresql-15 procps
 SCHEMA_PACKAGES=(nodejs npm)
 # What scripts/web_test.sh and scripts/web_pictures.sh need besides, where no other Chromium is there.
 PAGE_PACKAGES=(chromium fonts-dejavu-core)
-# What scripts/report.sh and scripts/bench.sh need besides, to draw plots (fonts for what their labels measure).
-REPORT_PACKAGES=(python3 gnuplot-nox fonts-dejavu-core)
+# What scripts/report.sh and scripts/bench.sh need besides.
+REPORT_PACKAGES=(python3)
+# What scripts/figures.sh needs besides, to draw the figures of the theory and to run commands of documents.
+FIGURE_PACKAGES=(python3-numpy jq librsvg2-bin)
 
 # What scripts/wasm.sh needs, beside BUILD_PACKAGES and nodejs.
 WASM_PACKAGES=(clang-19 lld-19 llvm-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc)

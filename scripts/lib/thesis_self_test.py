@@ -1,7 +1,7 @@
 """Checks of what the report does with results that are made up: no solver takes part."""
 import json
 
-from lib.gnuplot import path_pieces
+from lib.path_curves import path_pieces
 from lib.thesis_data import as_printed, percent, pick, value_of
 from lib.thesis_errata import POLYGON, factor_giving, polygon
 
