@@ -18,6 +18,10 @@ constexpr std::int64_t kLeastBytesByUnknown = 440;
 /// a large mesh takes 1 120 bytes and more (order 8).
 constexpr std::int64_t kLeastBytesOfSearch = 8 * 3 * 2 * sizeof(double);
 
+/// Bytes for each unknown that following a path adds, a lower bound: two points with their tangents, a
+/// predicted point, a residual and two corrections.
+constexpr std::int64_t kLeastBytesOfPath = 8 * sizeof(double);
+
 std::recursive_mutex& turn() {
   static std::recursive_mutex mutex;
   return mutex;
@@ -41,8 +45,11 @@ std::int64_t least_memory(const Model& model, const Analysis& analysis) {
   }
   const std::int64_t elements = mesh_size(model, mesh).elements;
   // An element of order p adds p nodes with three unknowns each.
-  const std::int64_t search = analysis.type == AnalysisType::buckling ? kLeastBytesOfSearch : 0;
-  return 3 * elements * mesh.order * (kLeastBytesByUnknown + search);
+  const bool follows = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
+  const std::int64_t more = analysis.type == AnalysisType::buckling ? kLeastBytesOfSearch
+                            : follows                               ? kLeastBytesOfPath
+                                                                    : 0;
+  return 3 * elements * mesh.order * (kLeastBytesByUnknown + more);
 }
 
 std::vector<Finding> check_memory(const Model& model, const Analysis& analysis, std::int64_t limit) {
