@@ -135,8 +135,8 @@ double PathCurve::beyond_ends(std::size_t piece, const VectorXd& offset) const {
 /// Estimated error of a piece's cubic across the curve: by its fourth derivative, the change of the third
 /// derivative from a neighbour to the piece. The larger one of both counts, of a neighbour that is too short
 /// to tell (both sides of a kink have one between them) the smaller one. The curve has the direction of the
-/// cubic's middle, and of the chord where a cubic that is far off turns back. What goes beyond the ends counts
-/// too.
+/// cubic's middle, and of the chord where a cubic that is far off turns back. What goes beyond the ends
+/// counts too.
 double PathCurve::error(std::size_t piece) const {
   const Node& a = nodes_[piece];
   const Node& b = nodes_[piece + 1];

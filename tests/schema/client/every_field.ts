@@ -149,7 +149,8 @@ const sweep: Schemas['SweepDocument'] = {
      range: {from: 0.01, to: 0.1, count: 5, spacing: 'log'}},
     {name: 'ends', targets: [{pointer: '/model/supports'}], values: [[{node: 'a', fixed: ['x']}], []], label: ['held', 'free']},
   ],
-  design: {latin_hypercube: {samples: 10, seed: 1}}, follow: {parameter: 'ends', point: 1, locus: false}, outputs: ['/buckling/load_factors/0'],
+  design: {latin_hypercube: {samples: 10, seed: 1}}, follow: {parameter: 'ends', point: 1, locus: false},
+  refine: {output: '/buckling/load_factors/0', within: 0.02, parameters: 1, most: 500}, outputs: ['/buckling/load_factors/0'],
 };
 
 type Created = paths['/v1/jobs']['post'];
