@@ -86,7 +86,7 @@ class SurfaceSearch {
   ChartSurface search() {
     const int step = outer_.intervals / outer_.first;
     for (int place = outer_.intervals; place > 0; place -= step) {
-      open_.push_back({place - step, place});
+      open_.emplace_back(place - step, place);
     }
     std::optional<ChartGap> unfinished;
     while (!open_.empty() && !unfinished) {
