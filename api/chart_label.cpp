@@ -72,7 +72,7 @@ std::string contact_change(const ChartLabel& before, const ChartLabel& after) {
   }
   const auto text = [](const ChartLabel& label, const std::string& id) {
     const auto found = label.contact.find(id);
-    return found == label.contact.end() ? std::string("unchanged") : std::to_string(found->second);
+    return found == label.contact.end() ? std::string("as without load") : std::to_string(found->second);
   };
   std::string all;
   for (const std::string& id : ids) {

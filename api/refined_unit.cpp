@@ -25,6 +25,7 @@ struct Stopped {
 struct Solved {
   PointOutcome outcome;
   ChartLabel label;
+  std::optional<double> value;  ///< the output that decides; empty: the point failed, or has none
 };
 
 ChartAxis axis_of(const SweepParameter& parameter) {
@@ -38,24 +39,14 @@ class Places {
          std::shared_ptr<Json>& document)
       : sweep_(sweep), first_(first), solve_(solve), hooks_(hooks), document_(document) {}
 
+  /// Solves a place once: a surface may ask for it again.
   /// @param place counted from the first one of the curve or surface
   ChartValue at(std::uint64_t place) {
-    Solved& here = known_[place];
-    const SweepRefine& refine = *sweep_.data().refine;
-    sweep_.write_document(first_ + place, document_);
-    here.outcome = solved_point(sweep_, document_, solve_, hooks_, [&](const Result& result) {
-      here.label = label_of(result, sweep_.data().outputs[refine.number]);
-    });
-    if (here.outcome.code == "cancelled") {
-      throw Stopped{here.outcome};
+    auto known = known_.find(place);
+    if (known == known_.end()) {
+      known = known_.emplace(place, solved(place)).first;
     }
-    here.label.failure = here.outcome.code;
-    std::optional<double> value;
-    if (!here.outcome.failed()) {
-      const Json output = Json::parse(here.outcome.outputs)[refine.number];
-      value = output.is_number() ? std::optional(output.get<double>()) : std::nullopt;
-    }
-    return {value, here.label.kind()};
+    return {known->second.value, known->second.label.kind()};
   }
 
   /// Appends the rows of a curve. @param first place of the curve's first place
@@ -72,6 +63,24 @@ class Places {
   }
 
  private:
+  Solved solved(std::uint64_t place) {
+    Solved here;
+    const SweepRefine& refine = *sweep_.data().refine;
+    sweep_.write_document(first_ + place, document_);
+    here.outcome = solved_point(sweep_, document_, solve_, hooks_, [&](const Result& result) {
+      here.label = label_of(result, sweep_.data().outputs[refine.number]);
+    });
+    if (here.outcome.code == "cancelled") {
+      throw Stopped{here.outcome};
+    }
+    here.label.failure = here.outcome.code;
+    if (!here.outcome.failed()) {
+      const Json output = Json::parse(here.outcome.outputs)[refine.number];
+      here.value = output.is_number() ? std::optional(output.get<double>()) : std::nullopt;
+    }
+    return here;
+  }
+
   [[nodiscard]] Json change_at(const ChartCurve& curve, std::size_t i, std::uint64_t first) const {
     if (i == 0 || curve.pieces[i] == curve.pieces[i - 1]) {
       return nullptr;

@@ -31,7 +31,7 @@ struct Row {
   std::vector<Motion> motions;
 };
 
-/// Rows in the order in which lines join them.
+/// Rows of a branch or of another analysis; lines join each row to the next one.
 struct Series {
   std::size_t branch = 0;  ///< index of the branch; 0 for the rows of other analyses
   std::vector<Row> rows;

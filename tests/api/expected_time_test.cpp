@@ -123,6 +123,19 @@ TEST(ExpectedTime, ACurveThatIsFollowedTakesLessThanItsPointsAlone) {
   EXPECT_THAT(followed.model, HasSubstr("followed"));
 }
 
+/// A refined sweep has as many points as its curves need.
+TEST(ExpectedTime, IsMissingForARefinedSweep) {
+  json document = sweep_over_elements(sound(), {8, 16});
+  document["parameters"].push_back({{"name", "EA"},
+                                    {"targets", {{{"pointer", "/model/sections/0/EA"}}}},
+                                    {"range", {{"from", 1e4}, {"to", 1e5}, {"count", 3}}}});
+  EXPECT_TRUE(checked(document).expected);
+  document["refine"] = {{"output", document["outputs"][0]}};
+  const CheckedDocument refined = checked(document);
+  EXPECT_TRUE(refined.findings.empty());
+  EXPECT_FALSE(refined.expected);
+}
+
 TEST(ExpectedTime, StandsInTheSizeOfAValidDocument) {
   const json document = json::parse(write_check(checked(sound())));
   ASSERT_TRUE(document.at("size").is_object()) << document;

@@ -158,7 +158,8 @@ class Picture {
   [[nodiscard]] double y(double value) const { return y_.pixel(value); }
   [[nodiscard]] Place place(const json& point) const { return {x(point.at(0)), y(point.at(1))}; }
 
-  /// Elements with a look that are in none of the groups for other things than the figure's data.
+  /// Returns the elements with a look that show data: those of a legend, a mirror image or a note are left
+  /// out.
   [[nodiscard]] std::vector<SvgElement> with(const std::string& looks) const {
     std::vector<SvgElement> found = svg_.with(looks);
     std::erase_if(found, [](const SvgElement& element) {
