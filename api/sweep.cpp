@@ -164,8 +164,6 @@ std::string Sweep::analysis_type() const { return text_of(data_->base.at("analys
 
 Json Sweep::values(std::uint64_t point) const { return design_values(*data_, point); }
 
-Json Sweep::labels(std::uint64_t point) const { return design_labels(*data_, point); }
-
 std::shared_ptr<const Json> Sweep::document_at(std::uint64_t point) const {
   return std::make_shared<Json>(document_with(*data_, design_values(*data_, point)));
 }

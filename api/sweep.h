@@ -71,7 +71,7 @@ class Sweep {
   [[nodiscard]] std::size_t output_count() const;
   /// Returns the columns between the outputs and "error": "piece" and "change" of a refined sweep.
   [[nodiscard]] std::vector<std::string_view> own_columns() const;
-  /// Returns a copy for columns(), output_count() and labels(), without model and analysis, so that a table
+  /// Returns a copy for columns(), output_count() and rows_of(), without model and analysis, so that a table
   /// that is written over a long time holds less memory.
   [[nodiscard]] Sweep for_table() const;
   /// Returns the approximate memory of the parameters' values in bytes.
@@ -84,18 +84,14 @@ class Sweep {
   [[nodiscard]] std::string analysis_type() const;
 
   /// @brief Returns the parameters' values at a point as a JSON array.
-  /// @pre point < size(). In a grid, the last parameter varies fastest.
+  /// @pre point < places(). In a grid, the last parameter varies fastest.
   [[nodiscard]] nlohmann::json values(std::uint64_t point) const;
 
-  /// @brief Returns the parameters' values at a point as a table shows them: labels replace values.
-  /// @pre point < size()
-  [[nodiscard]] nlohmann::json labels(std::uint64_t point) const;
-
   /// @brief Returns the request document of a point: model and analysis with the point's values.
-  /// @pre point < size()
+  /// @pre point < places()
   [[nodiscard]] std::shared_ptr<const nlohmann::json> document_at(std::uint64_t point) const;
 
-  /// Returns the request document of a point as text. @pre point < size()
+  /// Returns the request document of a point as text. @pre point < places()
   [[nodiscard]] std::string request_text(std::uint64_t point) const;
 
   /// @brief Returns the rows of an outcome: the outcome itself, or all rows of a curve or surface

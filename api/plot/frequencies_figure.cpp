@@ -321,6 +321,7 @@ std::string description_of(const FrequencyData& data, const std::vector<PlacedPo
     }
   }
   std::vector<CriticalPoint> points;
+  points.reserve(placed.size());
   for (const PlacedPoint& one : placed) {
     points.push_back(one.point);
   }
@@ -349,6 +350,7 @@ Figure frequencies_figure(const ResultInput& input, Size size) {
   figure.shapes.push_back(frame_shape(frame, size));
   draw_series(data, frame, taken, figure.shapes);
   std::vector<PlacedMark> marks;
+  marks.reserve(placed.size());
   for (const PlacedPoint& one : placed) {
     marks.push_back(placed_mark(one.point, place(frame, one.at.x, one.at.y)));
   }

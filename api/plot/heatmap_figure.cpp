@@ -276,10 +276,10 @@ std::vector<Shape> contour_shapes(const Map& map, Size size) {
     }
     if (all[k].size() > 4) {
       const bool dark = static_cast<double>(k) / static_cast<double>(all.size()) * (kBands - 1) > 5.5;
-      LabelRequest wanted{all[k][all[k].size() / 2].first,
-                          {{format_number(map.levels[k]), "", false}},
-                          dark ? "contour-text on-dark" : "contour-text",
-                          2};
+      const LabelRequest wanted{all[k][all[k].size() / 2].first,
+                                {{format_number(map.levels[k]), "", false}},
+                                dark ? "contour-text on-dark" : "contour-text",
+                                2};
       if (std::optional<Shape> text = place_label(wanted, taken)) {
         texts.push_back(std::move(*text));
       }

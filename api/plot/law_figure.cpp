@@ -100,6 +100,7 @@ std::vector<DrawnCurve> drawn_curves(const SupportLaw& law) {
     reach = std::max(reach, kRoom * curve.reach);
   }
   std::vector<DrawnCurve> drawn;
+  drawn.reserve(law.curves.size());
   for (const LawCurve& curve : law.curves) {
     drawn.push_back(drawn_curve(law, curve, reach));
   }
@@ -149,6 +150,7 @@ Frame frame_of(const SupportLaw& law, const Units& units, const std::vector<Draw
 
 Shape curve_shape(const DrawnCurve& curve, std::size_t number, const Frame& frame) {
   std::vector<Pixel> pixels;
+  pixels.reserve(curve.points.size());
   for (const LawPoint& point : curve.points) {
     pixels.push_back(place(frame, point.x, point.y));
   }

@@ -217,6 +217,7 @@ void draw_line(const StiffnessData& data, const Frame& frame, Occupancy& taken, 
 
 std::vector<PlacedMark> marks_of(const StiffnessData& data, const Frame& frame) {
   std::vector<PlacedMark> marks;
+  marks.reserve(data.points.size() + 1);
   for (const CriticalPoint& point : data.points) {
     marks.push_back(
         placed_mark(point, place(frame, point.load_factor, ratio_at(data.samples, point.arc_length))));

@@ -73,7 +73,7 @@ std::string label_of(const std::string& column) {
   std::vector<std::string> words;
   std::copy_if(tokens.begin(), tokens.end(), std::back_inserter(words),
                [](const std::string& token) { return !is_number(token); });
-  std::string label = words.empty() ? column : in_words(words.back());
+  const std::string label = words.empty() ? column : in_words(words.back());
   return words.size() > 1 ? in_words(words[words.size() - 2]) + ", " + label : label;
 }
 
@@ -314,6 +314,7 @@ std::vector<const Column*> varied_parameters(const Table& table) {
     throw PlotError("/columns", "has no parameter, whose column begins with no slash");
   }
   std::vector<std::pair<std::size_t, const Column*>> counted;
+  counted.reserve(table.parameters.size());
   for (const Column& column : table.parameters) {
     counted.emplace_back(column.distinct(), &column);
   }
