@@ -7,13 +7,13 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
 
 from . import _events, _spans, results
 from ._engine import Batch
-from ._errors import AnalysisFailed, Cancelled, Interrupted, ServiceError, SnapthroughError, invalid
+from ._errors import AnalysisFailed, Cancelled, Interrupted, ServiceError, SnapthroughError, invalid, show_warnings
 from ._events import Event
 from ._http import Response, Transport, problem_of, service_error
 from ._local import as_bytes
 from ._model import request_of
 from ._progress import OnProgress, Progress, Stop
-from ._result import Result, show_warnings
+from ._result import Result
 from ._sweeping import Batches, SweepRun
 from ._table import Table
 

@@ -1,11 +1,12 @@
 """What the package raises and warns of; the same for the library and for a service."""
-from typing import TYPE_CHECKING, Any, Dict, Optional, Sequence, Union
+import os
+import sys
+import warnings
+from typing import Any, Dict, Optional, Sequence, Union
 
 from . import results
-
-if TYPE_CHECKING:
-    from ._result import Result
-    from ._table import Table
+from ._result import Result
+from ._table import Table
 
 
 class SnapthroughWarning(UserWarning):
@@ -32,7 +33,7 @@ class AnalysisFailed(SnapthroughError):
     None where nothing is left of it.
     """
 
-    def __init__(self, code: str, detail: str, reached: "Optional[Result]" = None) -> None:
+    def __init__(self, code: str, detail: str, reached: Optional[Result] = None) -> None:
         self.code = code
         self.detail = detail
         self.reached = reached
@@ -42,7 +43,7 @@ class AnalysisFailed(SnapthroughError):
 class Cancelled(SnapthroughError):
     """The caller stopped it. `reached` is the result, or the table, as far as it came; None where a service had it."""
 
-    def __init__(self, reached: "Union[Result, Table, None]" = None) -> None:
+    def __init__(self, reached: Union[Result, Table, None] = None) -> None:
         self.reached = reached
         super().__init__("stopped by its caller")
 
@@ -50,7 +51,7 @@ class Cancelled(SnapthroughError):
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C stopped it. `reached` is the result, or the table, as far as it came; None where a service had it."""
 
-    def __init__(self, reached: "Union[Result, Table, None]" = None) -> None:
+    def __init__(self, reached: Union[Result, Table, None] = None) -> None:
         self.reached = reached
         super().__init__("interrupted")
 
@@ -88,3 +89,15 @@ def invalid(problem: Dict[str, Any]) -> InvalidRequest:
     """The exception of a problem that lists mistakes."""
     findings = [results.Finding(finding) for finding in problem.get("errors", [])]
     return InvalidRequest(findings, str(problem.get("detail", "")))
+
+
+def show_warnings(result: Result) -> None:
+    """Tells the warnings of a result, as of the line outside this package that asked for it."""
+    # Parsing a long result takes longer than a short analysis; without warnings its text ends like this.
+    if result.json.endswith(b'"warnings":[]}') or not result.document.get("warnings"):
+        return
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == os.path.dirname(__file__):
+        level, frame = level + 1, frame.f_back
+    for warning in result.document["warnings"]:
+        warnings.warn(f"{warning['code']}: {warning['detail']}", SnapthroughWarning, stacklevel=level)

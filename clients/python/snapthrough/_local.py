@@ -5,15 +5,16 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
-from . import _caller, _chunks, _engine, _library, _spans, results
+from . import _caller, _chunks, _engine, _library, _result, _spans, results
 from ._browser import BrowserLibrary
 from ._buildable import to_json
-from ._errors import AnalysisFailed, Cancelled, Interrupted, LibraryNotFound, SnapthroughError, UsageError, invalid
+from ._errors import (AnalysisFailed, Cancelled, Interrupted, LibraryNotFound, SnapthroughError, UsageError, invalid,
+                      show_warnings)
 from ._library import Answer, Library
 from ._model import request_of
 from ._progress import OnProgress, Progress, Stop
 from ._refine import is_refined
-from ._result import Result, show_warnings
+from ._result import Result
 from ._spans import Element
 from ._sweeping import Batches, SweepRun
 from ._table import Table, read_table
@@ -231,9 +232,12 @@ def default_local() -> Local:
     return Local()
 
 
-def svg_of(result: Result) -> Optional[str]:
+def _svg_of(result: Result) -> Optional[str]:
     """The library's drawing of a result; None where there is none."""
     try:
         return default_local().plot(result)
     except (LibraryNotFound, SnapthroughError):
         return None
+
+
+_result.svg_of = _svg_of

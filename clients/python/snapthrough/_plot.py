@@ -1,16 +1,15 @@
 """Drawings of results with matplotlib, which is imported when something is drawn."""
 from functools import partial
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
 
-if TYPE_CHECKING:
-    from ._result import Result
-    from .results import Branch
+from ._columns import columns_of
+from .results import Branch, ResultFields
 
 _KINDS = ("path", "shape", "static", "buckling", "frequencies")
 _PARTS = 8  # straight lines that a cubic between two rows is drawn with
 
 
-def draw(result: "Result", kind: Optional[str], ax: Any, points: bool = False) -> Any:
+def draw(result: ResultFields, kind: Optional[str], ax: Any, points: bool = False) -> Any:
     """Draws a result of one of _KINDS on the axes, or on new ones, which are given back.
 
     `points` marks each point of a path at which an equilibrium was solved.
@@ -21,7 +20,7 @@ def draw(result: "Result", kind: Optional[str], ax: Any, points: bool = False) -
     if ax is None:
         from matplotlib import pyplot
         _, ax = pyplot.subplots()
-    drawings: Dict[str, Callable[["Result", Any], None]] = {
+    drawings: Dict[str, Callable[[ResultFields, Any], None]] = {
         "path": partial(_path, points=points), "shape": _shape, "static": _static, "buckling": _buckling,
         "frequencies": _frequencies}
     drawings[chosen](result, ax)
@@ -30,7 +29,7 @@ def draw(result: "Result", kind: Optional[str], ax: Any, points: bool = False) -
     return ax
 
 
-def _default_kind(result: "Result") -> str:
+def _default_kind(result: ResultFields) -> str:
     document = result.document
     for kind, source in (("path", "branches"), ("frequencies", "vibrations"), ("static", "static"),
                          ("buckling", "buckling"), ("shape", "states")):
@@ -39,7 +38,7 @@ def _default_kind(result: "Result") -> str:
     raise ValueError("this result has nothing to draw: no paths, frequencies, rows, buckling loads or states")
 
 
-def _unit(result: "Result", quantity: str) -> str:
+def _unit(result: ResultFields, quantity: str) -> str:
     unit = result.model.units.get(quantity)
     return f" [{unit}]" if unit else ""
 
@@ -65,7 +64,7 @@ def _cubics(arcs: List[float], values: List[float], rates: List[float]) -> List[
     return drawn
 
 
-def _branch(branch: "Branch", monitor: Optional[str], ax: Any, points: bool) -> None:
+def _branch(branch: Branch, monitor: Optional[str], ax: Any, points: bool) -> None:
     """Draws a branch over a monitor, or over its arc length."""
     arcs, rates = branch.arc_length, branch.rates
     along = branch.monitors[monitor] if monitor else arcs
@@ -87,7 +86,7 @@ def _branch(branch: "Branch", monitor: Optional[str], ax: Any, points: bool) -> 
                 markersize=5)
 
 
-def _path(result: "Result", ax: Any, points: bool) -> None:
+def _path(result: ResultFields, ax: Any, points: bool) -> None:
     monitor = next((name for branch in result.branches for name in branch.monitors), None)
     for branch in result.branches:
         _branch(branch, monitor, ax, points)
@@ -99,7 +98,7 @@ def _path(result: "Result", ax: Any, points: bool) -> None:
     ax.set_ylabel("load factor")
 
 
-def _shape(result: "Result", ax: Any) -> None:
+def _shape(result: ResultFields, ax: Any) -> None:
     if not result.states:
         raise ValueError("kind: there are no states to draw; ask for them with analysis.output.states")
     for member in result.states[0].members.values():
@@ -114,8 +113,8 @@ def _shape(result: "Result", ax: Any) -> None:
     ax.legend(fontsize="small")
 
 
-def _static(result: "Result", ax: Any) -> None:
-    columns = result.columns("static")
+def _static(result: ResultFields, ax: Any) -> None:
+    columns = columns_of(result.document, "static")
     monitors: Dict[str, List[float]] = result.document["static"]["monitors"]
     for name, values in (monitors or {"row": list(range(len(columns["load_factor"])))}).items():
         ax.plot(values, columns["load_factor"], "o-", label=name)
@@ -124,7 +123,7 @@ def _static(result: "Result", ax: Any) -> None:
     ax.legend(fontsize="small")
 
 
-def _buckling(result: "Result", ax: Any) -> None:
+def _buckling(result: ResultFields, ax: Any) -> None:
     if result.buckling is None:
         raise ValueError("kind: the result has no buckling loads")
     for number, (load, mode) in enumerate(zip(result.buckling.load_factors, result.buckling.modes)):
@@ -145,7 +144,7 @@ def _frequency_rows(document: Dict[str, Any]) -> Iterator[List[Tuple[float, Dict
     yield [(one["load_factor"], one["frequencies"]) for one in document.get("vibrations") or []]
 
 
-def _frequencies(result: "Result", ax: Any) -> None:
+def _frequencies(result: ResultFields, ax: Any) -> None:
     found = [rows for rows in _frequency_rows(result.document) if rows]
     if not found:
         raise ValueError("kind: the result has no frequencies; ask for them with analysis.output.frequencies")

@@ -166,7 +166,7 @@ class Table:
         are named, the first of each kind before others. `output` is a pointer, by default that of the refined output or
         else of the first one.
         """
-        return _table_plot.draw(self, output, ax)
+        return _table_plot.draw(self.columns, self.rows, self._refinement, output, ax)
 
     def text_of(self, index: int) -> str:
         """The JSON text of a row, as it was received."""

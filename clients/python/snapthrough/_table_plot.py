@@ -1,10 +1,7 @@
 """Drawings of tables of sweeps with matplotlib, which is imported when something is drawn."""
-from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Set
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Set
 
-from ._refine import CHANGE, PIECE
-
-if TYPE_CHECKING:
-    from ._table import Table
+from ._refine import CHANGE, PIECE, Refinement, is_refined, names_of
 
 _NAMED_CURVES = 10  # a legend with more lines hides the drawing
 _NAMED_CHANGES = 6
@@ -24,17 +21,18 @@ class _Break(NamedTuple):
     change: str
 
 
-def draw(table: "Table", output: Optional[str], ax: Any) -> Any:
+def draw(columns: Sequence[str], rows: Sequence[Sequence[Any]], refinement: Optional[Refinement],
+         output: Optional[str], ax: Any) -> Any:
     """Draws an output of a table over its last parameter on the axes, or on new ones, which are given back."""
+    parameters, outputs = names_of(columns)
     if ax is None:
         from matplotlib import pyplot
         _, ax = pyplot.subplots()
-    refinement = table.refinement
-    chosen = output or (refinement.output if refinement else table.outputs[0])
-    if chosen not in table.outputs:
-        raise ValueError(f"output: {chosen!r} is none of {', '.join(table.outputs)}")
-    curves = _curves(table, chosen)
-    breaks = [found for name, rows in curves.items() for found in _draw_curve(rows, name, ax)]
+    chosen = output or (refinement.output if refinement else outputs[0])
+    if chosen not in outputs:
+        raise ValueError(f"output: {chosen!r} is none of {', '.join(outputs)}")
+    curves = _curves(columns, rows, chosen)
+    breaks = [found for name, curve in curves.items() for found in _draw_curve(curve, name, ax)]
     ax.plot([found.x for found in breaks], [found.y for found in breaks], "o", color="black", markersize=5,
             markerfacecolor="none")
     for found in _named(breaks):
@@ -42,7 +40,7 @@ def draw(table: "Table", output: Optional[str], ax: Any) -> Any:
                     ha="center", fontsize="x-small")
     if refinement and refinement.axes[-1].is_log:
         ax.set_xscale("log")
-    ax.set_xlabel(table.parameters[-1])
+    ax.set_xlabel(parameters[-1])
     ax.set_ylabel(chosen)
     if 1 < len(curves) <= _NAMED_CURVES:
         ax.legend(fontsize="small")
@@ -53,14 +51,14 @@ def _number(value: Any) -> Optional[float]:
     return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else None
 
 
-def _curves(table: "Table", output: str) -> Dict[str, List[_Row]]:
+def _curves(columns: Sequence[str], rows: Sequence[Sequence[Any]], output: str) -> Dict[str, List[_Row]]:
     """The rows of each line, by the values of all parameters but the last; rows without a number of it are left out."""
-    parameters = table.parameters
+    parameters, outputs = names_of(columns)
     last = len(parameters) - 1
-    value = last + 1 + table.outputs.index(output)
-    piece, change = (table.columns.index(name, last + 1) if table.refined else None for name in (PIECE, CHANGE))
+    value = last + 1 + outputs.index(output)
+    piece, change = (columns.index(name, last + 1) if is_refined(columns) else None for name in (PIECE, CHANGE))
     curves: Dict[str, List[_Row]] = {}
-    for row in table.rows:
+    for row in rows:
         x, y = _number(row[last]), _number(row[value])
         if row[last] is not None and x is None:
             raise ValueError(f"plot: {parameters[last]!r} has values that are no numbers; "
