@@ -9,7 +9,7 @@
 #include "solver/mesh/mesh.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/work_limit.h"
-#include "solver/support/rods.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough::api {
 namespace {
@@ -26,7 +26,7 @@ constexpr int kMostQuestions = 200;
 
 /// Returns the number of free displacement unknowns of the request's mesh, before any refinement.
 int unknowns_of(const Request& request) {
-  const Model model = rods_as_springs(request.model);
+  const ResolvedModel model = resolve(request.model);
   const MeshSize mesh = mesh_size(model, request.analysis.discretization);
   // A member of n elements of order p has n p - 1 inner nodes with three displacements each.
   int unknowns = 3 * static_cast<int>(model.nodes.size());

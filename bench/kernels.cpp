@@ -10,6 +10,7 @@
 #include "solver/discrete/structure.h"
 #include "solver/numeric/symmetric_indefinite.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough::bench {
@@ -19,7 +20,7 @@ namespace {
 struct Kernel {
   Model model = case_named("shallow_arch").model;
   Discretization mesh = testing::fixed_mesh(5, 5);
-  Structure structure = make_structure(model, mesh, Geometry::nonlinear);
+  Structure structure = make_structure(resolve(model), mesh, Geometry::nonlinear);
   StructuralProblem problem{structure};
   Eigen::VectorXd y = Eigen::VectorXd::Zero(structure.size);
   Eigen::VectorXd residual;
@@ -93,7 +94,7 @@ void add_kernels() {
     solve_once(k);
   });
   add("kernel/structure_each_time", [](Kernel& k) {
-    const Structure structure = make_structure(k.model, k.mesh, Geometry::nonlinear);
+    const Structure structure = make_structure(resolve(k.model), k.mesh, Geometry::nonlinear);
     StructuralProblem problem(structure);
     problem.linearise(k.y, k.lambda, k.residual);
   });

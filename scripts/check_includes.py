@@ -33,7 +33,7 @@ API_STANDARD = SOLVER_STANDARD | {"sstream", "iosfwd", "cstdio", "regex"}
 # The folders of each layer, each above what it may include. Files beside the folders stand by their names, with their ending
 # or without; "." are those that are not named. A folder in a folder that is not named stands with the folder around it.
 SOLVER_ORDER = """
-    numeric model result.h hooks.h geometry support mesh element member discrete check column problem newton path events
+    numeric model result.h hooks.h resolve geometry support mesh element member discrete check column problem newton path events
     trace report sensitivity accuracy analysis sweep solve.h solve.cpp
 """.split()
 API_ORDER = "openapi . plot convert".split()

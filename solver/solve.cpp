@@ -15,8 +15,8 @@
 #include "solver/numeric/number_text.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/support/law.h"
-#include "solver/support/rods.h"
 
 namespace snapthrough {
 namespace {
@@ -59,8 +59,8 @@ void give_up(const Analysis& analysis, const char* code, const std::string& deta
 }
 
 /// @throws Cancelled when no result was reached
-void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, const CriticalVisitor& visit,
-             Result& result) {
+void analyse(const ResolvedModel& model, const Analysis& analysis, const Hooks& hooks,
+             const CriticalVisitor& visit, Result& result) {
   // only one-sided supports need the equilibrium test of their loads
   std::optional<FreeMotions> motions;
   std::optional<UnilateralBalance> balance;
@@ -117,7 +117,8 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, c
 }
 
 /// @param visit may be empty
-Result run(const Model& model, const Analysis& analysis, const Hooks& hooks, const CriticalVisitor& visit) {
+Result run(const ResolvedModel& model, const Analysis& analysis, const Hooks& hooks,
+           const CriticalVisitor& visit) {
   Result result;
   result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
   if (!unless_cancelled([&] { analyse(model, analysis, hooks, visit, result); })) {
@@ -142,19 +143,6 @@ std::vector<Variation> with_shape_held(std::vector<Variation> variations, const 
     };
   }
   return variations;
-}
-
-/// The analysis of a model with its rods as springs: the changed models of its sensitivities have springs
-/// too.
-Analysis with_rods_in_variations(Analysis analysis) {
-  for (Variation& variation : analysis.sensitivities) {
-    variation.model_at = [inner = std::move(variation.model_at)](double value) -> std::optional<Model> {
-      std::optional<Model> changed = inner(value);
-      if (changed) changed = rods_as_springs(*std::move(changed));
-      return changed;
-    };
-  }
-  return analysis;
 }
 
 /// Warns of a worst imperfection that does not lower the critical load.
@@ -182,7 +170,7 @@ void warn_of_failed_paths(const WorstSearch& search, Result& result) {
 Result run_with_worst(const Model& model, const WorstImperfection& worst, const Analysis& analysis,
                       const Hooks& hooks) {
   const Hooks quiet{hooks.stop};
-  const auto run_critical = [&](const Model& with, const CriticalVisitor& visit) {
+  const auto run_critical = [&](const ResolvedModel& with, const CriticalVisitor& visit) {
     return run(with, search_analysis(analysis), quiet, visit);
   };
   WorstSearch search = find_worst_offset(model, analysis, run_critical, hooks.stop);
@@ -192,16 +180,11 @@ Result run_with_worst(const Model& model, const WorstImperfection& worst, const 
   }
   Analysis final = analysis;
   final.sensitivities = with_shape_held(analysis.sensitivities, *search.found, worst.amplitude);
-  Result result = run(with_offsets(model, search.found->imperfections), final, hooks, {});
+  Result result = run(resolve(with_offsets(model, search.found->imperfections)), final, hooks, {});
   warn_of_no_fall(*search.found, result);
   warn_of_failed_paths(search, result);
   result.worst_imperfection = std::move(search.found);
   return result;
-}
-
-Result run_any(const Model& model, const Analysis& analysis, const Hooks& hooks) {
-  const WorstImperfection* worst = worst_imperfection(model);
-  return worst != nullptr ? run_with_worst(model, *worst, analysis, hooks) : run(model, analysis, hooks, {});
 }
 
 }  // namespace
@@ -213,9 +196,9 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
 }
 
 Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks) {
-  const std::optional<Model> acting = with_rods_as_springs(model);
-  return acting ? run_any(*acting, with_rods_in_variations(analysis), hooks)
-                : run_any(model, analysis, hooks);
+  const WorstImperfection* worst = worst_imperfection(model);
+  return worst != nullptr ? run_with_worst(model, *worst, analysis, hooks)
+                          : run(resolve(model), analysis, hooks, {});
 }
 
 }  // namespace snapthrough

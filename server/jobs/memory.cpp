@@ -43,7 +43,7 @@ std::int64_t least_memory(const Model& model, const Analysis& analysis) {
   if (!mesh.fixed_mesh) {
     return 0;
   }
-  const std::int64_t elements = mesh_size(model, mesh).elements;
+  const std::int64_t elements = given_elements(model.members, mesh);
   // An element of order p adds p nodes with three unknowns each.
   const bool follows = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
   const std::int64_t more = analysis.type == AnalysisType::buckling ? kLeastBytesOfSearch

@@ -33,7 +33,7 @@ bool within(const std::vector<std::optional<double>>& errors, double accuracy) {
 
 }  // namespace
 
-BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const Structure& structure,
+BucklingLoads buckling_loads(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                              LoadSense sense) {
   const bool fixed = analysis.discretization.fixed_mesh;
   BucklingLoads out;

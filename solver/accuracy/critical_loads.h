@@ -38,7 +38,7 @@ class CriticalLoads final : public PathObserver {
  public:
   /// @param earlier critical points of the path on a coarser mesh; kept by reference
   /// @param follower of the path; it has to be alive and started when confirm() is called
-  CriticalLoads(const Model& model, const Analysis& analysis, const Structure& structure,
+  CriticalLoads(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                 const PathFollower& follower, const std::vector<CriticalPoint>& earlier, Result& result)
       : model_(model),
         analysis_(analysis),
@@ -86,7 +86,7 @@ class CriticalLoads final : public PathObserver {
   void report(const Target& target, const Answer& answer);
   void report_meshes(int finest, double largest, int without, std::string& text);
 
-  const Model& model_;
+  const ResolvedModel& model_;
   const Analysis& analysis_;
   const Structure& structure_;
   const PathFollower& follower_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -16,7 +16,7 @@ namespace snapthrough {
 /// Bending decays as exp(-s sqrt(N / EI)) under tension N, and as exp(-s sqrt(K / GA)) on a foundation of
 /// modulus K in shearable members. In thin members these lengths are much shorter than all lengths known
 /// before the analysis.
-[[nodiscard]] std::vector<double> bending_decays(const Structure& structure, const Model& model,
+[[nodiscard]] std::vector<double> bending_decays(const Structure& structure, const ResolvedModel& model,
                                                  const Eigen::VectorXd& y);
 
 }  // namespace snapthrough

@@ -36,7 +36,8 @@ std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<
 
 }  // namespace
 
-FineMesh::FineMesh(Structure structure, const Model& model, const PathFollower& measure, double tolerance)
+FineMesh::FineMesh(Structure structure, const ResolvedModel& model, const PathFollower& measure,
+                   double tolerance)
     : structure_(std::move(structure)),
       model_(model),
       problem_(structure_),

@@ -35,7 +35,7 @@ class FineMesh {
   /// @param measure follower that has started on a coarser mesh; its norm and load scale are used here
   /// @param tolerance relative load factor tolerance of located points
   /// @param model of the structure; kept by reference
-  FineMesh(Structure structure, const Model& model, const PathFollower& measure, double tolerance);
+  FineMesh(Structure structure, const ResolvedModel& model, const PathFollower& measure, double tolerance);
 
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
@@ -73,7 +73,7 @@ class FineMesh {
                                                  double distance);
 
   Structure structure_;
-  const Model& model_;
+  const ResolvedModel& model_;
   StructuralProblem problem_;
   PathFollower follower_;
   double tolerance_;

@@ -21,13 +21,13 @@ using Eigen::VectorXd;
 /// Whether the one-sided foundations of a member react with the stiffness of the model on all its elements.
 /// Else the peaks of their reaction at the ends of contact are those of the mesh, and so is the shear force
 /// there.
-bool is_resolved(const Structure& structure, const Model& model, std::size_t member) {
+bool is_resolved(const Structure& structure, const ResolvedModel& model, std::size_t member) {
   const auto first = structure.stiffest.begin() + structure.mesh.first[member];
   const auto end = structure.stiffest.begin() + structure.mesh.first[member + 1];
   const double bound = *std::min_element(first, end);
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
-    const Foundation& foundation = model.foundations[i];
-    if (foundation.member != model.members[member].id || !structure.foundation_laws[i].law.one_sided)
+    const ResolvedFoundation& foundation = model.foundations[i];
+    if (foundation.member != static_cast<int>(member) || !structure.foundation_laws[i].law.one_sided)
       continue;
     const bool is_rigid = !std::isfinite(initial_stiffness(foundation));
     if (is_rigid || structure.foundation_laws[i].law.stiffness > bound) return false;
@@ -111,7 +111,8 @@ std::array<double, 6> largest_unknowns(const Structure& structure, const VectorX
 /// Force that is rounding beside the loads, and beside those that would bend the softest section as the
 /// displacements do: a statically determinate structure that is strained has displacements and no forces, and
 /// a block that lies evenly on a bed has loads and no section forces.
-double least_force_of(const Structure& structure, const Model& model, const VectorXd& y, double lambda) {
+double least_force_of(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
+                      double lambda) {
   double softest = std::numeric_limits<double>::infinity();
   for (const Section& section : model.sections) softest = std::min(softest, section.EI.least());
   double gradient = 0.0;
@@ -125,8 +126,8 @@ double least_force_of(const Structure& structure, const Model& model, const Vect
 
 }  // namespace
 
-StateValues values_of(const Structure& structure, const Model& model, const VectorXd& y, double lambda,
-                      bool halves) {
+StateValues values_of(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
+                      double lambda, bool halves) {
   StateValues out;
   const std::vector<LayerState> layers = layer_states(structure, y);
   for (std::size_t m = 0; m + 1 < structure.mesh.first.size(); ++m) {

@@ -8,7 +8,6 @@
 #include "solver/accuracy/layers.h"
 #include "solver/accuracy/state_values.h"
 #include "solver/discrete/transfer.h"
-#include "solver/model/id_index.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
@@ -155,10 +154,10 @@ std::vector<int> halvings_for(const std::vector<double>& differences, double acc
 }
 
 /// Halves the longest elements of members on rigid foundations, whose stiffness follows from them.
-void halve_on_rigid(const Model& model, const Mesh& mesh, std::vector<int>& halvings) {
-  for (const Foundation& foundation : model.foundations) {
+void halve_on_rigid(const ResolvedModel& model, const Mesh& mesh, std::vector<int>& halvings) {
+  for (const ResolvedFoundation& foundation : model.foundations) {
     if (std::isfinite(initial_stiffness(foundation))) continue;
-    const auto m = static_cast<std::size_t>(index_of(model.members, foundation.member));
+    const auto m = static_cast<std::size_t>(foundation.member);
     const auto width = [&mesh](int e) {
       const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
       return cell.to - cell.from;
@@ -173,7 +172,7 @@ void halve_on_rigid(const Model& model, const Mesh& mesh, std::vector<int>& halv
 /// Compares states on a mesh and its halved one, and refines both.
 class Refinement {
  public:
-  Refinement(const Model& model, const Discretization& asked, const Structure& structure,
+  Refinement(const ResolvedModel& model, const Discretization& asked, const Structure& structure,
              const std::vector<StaticState>& states, const FindStates& find)
       : model_(model), accuracy_(asked.accuracy), find_(find), first_(structure), of_first_(states) {
     level_ = std::make_unique<MeshStates>(
@@ -193,7 +192,7 @@ class Refinement {
         std::make_shared<const Structure>(on_mesh(first_, model_, std::move(mesh))));
   }
 
-  const Model& model_;
+  const ResolvedModel& model_;
   double accuracy_;
   const FindStates& find_;
   const Structure& first_;
@@ -320,8 +319,9 @@ void report_accuracy(const RefinedStates& refined, const Discretization& asked, 
   fail(result, "not_confirmed", why + " (" + reached + ")");
 }
 
-RefinedStates refine_states(const Model& model, const Discretization& asked, const Structure& structure,
-                            const std::vector<StaticState>& states, const FindStates& find) {
+RefinedStates refine_states(const ResolvedModel& model, const Discretization& asked,
+                            const Structure& structure, const std::vector<StaticState>& states,
+                            const FindStates& find) {
   return Refinement(model, asked, structure, states, find).run();
 }
 

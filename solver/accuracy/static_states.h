@@ -11,8 +11,8 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
 #include "solver/problem/holds.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -54,7 +54,7 @@ struct RefinedStates {
 /// @param states one or more
 /// @param find called where Newton's method does not lead from the transferred state to one of the same
 /// inertia
-[[nodiscard]] RefinedStates refine_states(const Model& model, const Discretization& asked,
+[[nodiscard]] RefinedStates refine_states(const ResolvedModel& model, const Discretization& asked,
                                           const Structure& structure, const std::vector<StaticState>& states,
                                           const FindStates& find);
 

@@ -12,9 +12,9 @@
 #include "solver/events/critical_event.h"
 #include "solver/hooks.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
 #include "solver/path/path_start.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 #include "solver/sensitivity/exact_point.h"
 
@@ -37,29 +37,30 @@ struct HeldRows {
 /// Runs the analyses `path` and `critical`: follows the equilibrium path.
 /// @param visit may be empty
 /// @param capacity limit loads of the model's supports; null: there are none
-void run_path(const Model& model, const Analysis& analysis, const Structure& structure,
+void run_path(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
               const CapacityEnds* capacity, const Hooks& hooks, Result& result,
               const CriticalVisitor& visit = {});
 /// Runs the analysis `static`: equilibrium at given load factors, with large or small displacements.
 /// @param held loads that are computed: the others are reported as not reached
 /// @param visit receives each state; may be empty
-void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
+void run_static(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                 const HeldRows& held, const Hooks& hooks, Result& result, const StateVisitor& visit = {});
 /// Runs the analysis `vibration`: small free vibrations about the equilibria at given load factors.
 /// @param held as in run_static()
-void run_vibration(const Model& model, const Analysis& analysis, const Structure& structure,
+void run_vibration(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                    const HeldRows& held, const Hooks& hooks, Result& result);
 /// Runs the analysis `buckling`: linearised buckling loads about the reference load.
-void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result);
+void run_buckling(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
+                  Result& result);
 
 /// @brief Runs `buckling` for a straight column by its differential equation.
 /// @return false, with `result` unchanged, when the model is no such column or the request fixes a mesh
-[[nodiscard]] bool run_exact_column(const Model& model, const Analysis& analysis, const Hooks& hooks,
+[[nodiscard]] bool run_exact_column(const ResolvedModel& model, const Analysis& analysis, const Hooks& hooks,
                                     Result& result);
 
 /// @brief Tolerances for locating critical points: near rounding on a fixed mesh, a small part of the
 /// accuracy otherwise. Imperfections caused by rounding or by the mesh do not break a bifurcation.
-[[nodiscard]] LocateOptions locate_options(const Model& model, const Analysis& analysis);
+[[nodiscard]] LocateOptions locate_options(const ResolvedModel& model, const Analysis& analysis);
 
 /// Buckling loads for one sense of the proportional actions.
 struct FoundLoads {
@@ -75,7 +76,7 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
 /// @brief Offsets of the model's mode imperfections, from linearised buckling of the model without
 /// imperfections; empty when the model has none.
 /// @throws std::runtime_error when the structure has fewer modes than an imperfection asks for
-[[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis,
+[[nodiscard]] ModeOffsets mode_offsets(const ResolvedModel& model, const Analysis& analysis,
                                        const std::stop_token& stop = {});
 
 /// Initial sense of the load factor along the primary path: 1 growing, -1 falling.
@@ -89,7 +90,7 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
 /// Constant actions are applied along a separate path from zero to their full size.
 /// @param on_unloaded receives the unloaded state with its modes; may be empty
 /// @return without a point, with the failure in `result`, when there is no such state or it is not stable
-[[nodiscard]] PathStart start_of_path(const Model& model, const Structure& structure,
+[[nodiscard]] PathStart start_of_path(const ResolvedModel& model, const Structure& structure,
                                       StructuralProblem& problem, PointSolver& solver, double direction,
                                       const Hooks& hooks, Result& result,
                                       const std::function<void(const PathPoint&)>& on_unloaded = {});
@@ -98,7 +99,7 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
 /// @return without a point, with the failure `no_start` in `result`, when no equilibrium is within a fiftieth
 /// of the given displacement gradients
 /// @pre analysis.start
-[[nodiscard]] PathStart start_at_state(const Model& model, const Structure& structure, PointSolver& solver,
-                                       const Analysis& analysis, Result& result);
+[[nodiscard]] PathStart start_at_state(const ResolvedModel& model, const Structure& structure,
+                                       PointSolver& solver, const Analysis& analysis, Result& result);
 
 }  // namespace snapthrough

@@ -44,7 +44,7 @@ bool moves_rigidly(const Mode& motion) {
 }  // namespace
 
 std::optional<CapacityRule> capacity_rule(const CapacityEnds* ends, const Structure& structure,
-                                          const Model& model, StructuralProblem& problem,
+                                          const ResolvedModel& model, StructuralProblem& problem,
                                           const std::vector<double>& asked) {
   if (ends == nullptr) return std::nullopt;
   constexpr double any = std::numeric_limits<double>::infinity();
@@ -70,7 +70,7 @@ double capacity_load(const CapacityEnds& ends, const Structure& structure, const
   return ends.of(outcome.last.lambda)->factor;
 }
 
-std::string report_capacity(const CapacityEnds& ends, const Model& model, double load_factor,
+std::string report_capacity(const CapacityEnds& ends, const ResolvedModel& model, double load_factor,
                             Result& result) {
   const CapacityEnd& end = *ends.of(load_factor);
   result.capacity.push_back(capacity_limit(model, ends, end, load_factor));
@@ -79,7 +79,7 @@ std::string report_capacity(const CapacityEnds& ends, const Model& model, double
 }
 
 void report_capacity_point(const Analysis& analysis, const CapacityEnds& ends, const Structure& structure,
-                           const Model& model, const TraceOutcome& outcome, std::size_t count,
+                           const ResolvedModel& model, const TraceOutcome& outcome, std::size_t count,
                            Result& result) {
   if (!outcome.on_critical) {
     CriticalPoint point;
@@ -105,8 +105,8 @@ void report_capacity_point(const Analysis& analysis, const CapacityEnds& ends, c
   if (!summary.at_critical) summary.at_critical = at_critical(structure, model, outcome.last.y);
 }
 
-std::string report_exceeded(const Model& model, const CapacityEnds& ends, const std::vector<double>& factors,
-                            Result& result) {
+std::string report_exceeded(const ResolvedModel& model, const CapacityEnds& ends,
+                            const std::vector<double>& factors, Result& result) {
   std::string text;
   for (const auto* end : {&ends.growing, &ends.falling}) {
     const bool exceeded = std::ranges::any_of(

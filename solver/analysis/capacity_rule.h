@@ -10,8 +10,8 @@
 #include "solver/discrete/capacity_balance.h"
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 #include "solver/trace/trace.h"
 
@@ -22,7 +22,8 @@ namespace snapthrough {
 /// @param asked load factors at which states are asked for; the path goes on to those below a limit
 /// @param structure, model, problem kept by reference; must outlive the rule
 [[nodiscard]] std::optional<CapacityRule> capacity_rule(const CapacityEnds* ends, const Structure& structure,
-                                                        const Model& model, StructuralProblem& problem,
+                                                        const ResolvedModel& model,
+                                                        StructuralProblem& problem,
                                                         const std::vector<double>& asked);
 
 /// @brief Load factor of the limit that ended a path: that of the critical point where the path lost its
@@ -35,8 +36,8 @@ namespace snapthrough {
 /// @brief Adds the limit on the side of a load factor to the result.
 /// @param load_factor that was found for the limit
 /// @return sentence on the limit, the motion and the supports
-[[nodiscard]] std::string report_capacity(const CapacityEnds& ends, const Model& model, double load_factor,
-                                          Result& result);
+[[nodiscard]] std::string report_capacity(const CapacityEnds& ends, const ResolvedModel& model,
+                                          double load_factor, Result& result);
 
 /// @brief Adds the limit that ended a path that was followed for its own sake, as critical point too: the one
 /// at which the path lost its stiffness, or the limit load of small displacements with the share of it that
@@ -44,12 +45,12 @@ namespace snapthrough {
 /// @param count critical points of the primary path in the result
 /// @pre outcome.end is TraceEnd::capacity
 void report_capacity_point(const Analysis& analysis, const CapacityEnds& ends, const Structure& structure,
-                           const Model& model, const TraceOutcome& outcome, std::size_t count,
+                           const ResolvedModel& model, const TraceOutcome& outcome, std::size_t count,
                            Result& result);
 
 /// @brief Adds the limits of a model, as small displacements have them, that load factors exceed.
 /// @return sentence on the first of them; empty: all load factors are held
-[[nodiscard]] std::string report_exceeded(const Model& model, const CapacityEnds& ends,
+[[nodiscard]] std::string report_exceeded(const ResolvedModel& model, const CapacityEnds& ends,
                                           const std::vector<double>& factors, Result& result);
 
 }  // namespace snapthrough

@@ -18,7 +18,8 @@ struct RowTolerance {
 
 }  // namespace
 
-FrequencyProbe::FrequencyProbe(const Structure& structure, const Model& model, const Analysis& analysis)
+FrequencyProbe::FrequencyProbe(const Structure& structure, const ResolvedModel& model,
+                               const Analysis& analysis)
     : structure_(structure), problem_(structure), masses_(make_mass_matrix(structure, model)) {
   const Discretization& mesh = analysis.discretization;
   is_asked_alone_ = analysis.type == AnalysisType::vibration;

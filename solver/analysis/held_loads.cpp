@@ -12,7 +12,7 @@
 namespace snapthrough {
 namespace {
 
-std::string sentence(const std::string& loads, const Model& model, const UnilateralBalance& balance,
+std::string sentence(const std::string& loads, const ResolvedModel& model, const UnilateralBalance& balance,
                      const Escape& escape) {
   return "one-sided supports can't hold " + loads + ": " + escape_text(model, balance.motions(), escape);
 }
@@ -24,7 +24,8 @@ std::string first_loads(const Escape& escape) {
              : "these loads";
 }
 
-HeldLoads held_factors(const Model& model, const Analysis& analysis, const UnilateralBalance& balance) {
+HeldLoads held_factors(const ResolvedModel& model, const Analysis& analysis,
+                       const UnilateralBalance& balance) {
   HeldLoads out;
   out.any = false;
   std::size_t refused = 0;
@@ -46,7 +47,7 @@ HeldLoads held_factors(const Model& model, const Analysis& analysis, const Unila
 
 }  // namespace
 
-HeldLoads held_loads(const Model& model, const Analysis& analysis, const UnilateralBalance& balance) {
+HeldLoads held_loads(const ResolvedModel& model, const Analysis& analysis, const UnilateralBalance& balance) {
   HeldLoads out;
   if (balance.motions().empty() || analysis.start) {
     out.factors.assign(analysis.load_factors.size(), 1);
@@ -69,8 +70,8 @@ namespace {
 /// Refuses asked load factors beyond the limit load of supports with a capacity, if displacements are small;
 /// if they are large, the path ends at the limit load. That is below the load at which one-sided supports
 /// lose their hold, so it alone is reported.
-void refuse_rows_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
-                                 HeldLoads& held, Result& result) {
+void refuse_rows_beyond_capacity(const ResolvedModel& model, const Analysis& analysis,
+                                 const CapacityEnds& ends, HeldLoads& held, Result& result) {
   const bool is_linear = analysis.geometry == Geometry::linear;
   std::vector<double> exceeding;
   bool others_refused = false;
@@ -95,7 +96,7 @@ void refuse_rows_beyond_capacity(const Model& model, const Analysis& analysis, c
 
 }  // namespace
 
-void refuse_beyond_capacity(const Model& model, const Analysis& analysis, const CapacityEnds& ends,
+void refuse_beyond_capacity(const ResolvedModel& model, const Analysis& analysis, const CapacityEnds& ends,
                             HeldLoads& held, Result& result) {
   if (analysis.start || (!held.any && ends.constant)) return;
   if (ends.constant) {
@@ -109,13 +110,13 @@ void refuse_beyond_capacity(const Model& model, const Analysis& analysis, const 
   if (has_rows(analysis.type)) refuse_rows_beyond_capacity(model, analysis, ends, held, result);
 }
 
-std::optional<std::string> start_refusal(const Model& model, const UnilateralBalance& balance) {
+std::optional<std::string> start_refusal(const ResolvedModel& model, const UnilateralBalance& balance) {
   Analysis path;
   path.type = AnalysisType::path;
   return held_loads(model, path, balance).refusal;
 }
 
-void withdraw_load_not_held(const Model& model, const UnilateralBalance& balance, Result& result) {
+void withdraw_load_not_held(const ResolvedModel& model, const UnilateralBalance& balance, Result& result) {
   const std::optional<double> load = result.summary.critical_load_factor;
   if (!load || balance.is_proportional()) return;
   const std::optional<Escape> escape = balance.escape(*load);

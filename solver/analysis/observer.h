@@ -6,8 +6,8 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
 #include "solver/report/strain.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -16,7 +16,7 @@ namespace snapthrough {
 class Observer {
  public:
   /// @param model, analysis, structure kept by reference; must outlive this object
-  Observer(const Model& model, const Analysis& analysis, const Structure& structure)
+  Observer(const ResolvedModel& model, const Analysis& analysis, const Structure& structure)
       : model_(model), analysis_(analysis), structure_(structure), gauge_(structure, model) {}
 
   /// Records the largest strain at scaled unknowns y and scaled load factor lambda.
@@ -27,7 +27,7 @@ class Observer {
   void finish(Result& result);
 
  private:
-  const Model& model_;
+  const ResolvedModel& model_;
   const Analysis& analysis_;
   const Structure& structure_;
   StrainGauge gauge_;

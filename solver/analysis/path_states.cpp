@@ -10,13 +10,14 @@
 namespace snapthrough {
 namespace {
 
-bool is_balanced(const Model& model, const RefinedStates& refined) {
+bool is_balanced(const ResolvedModel& model, const RefinedStates& refined) {
   const StaticState& at = refined.states.front();
   return imbalance(*refined.structure, model, at.y, at.lambda) <= StateLimits::imbalance;
 }
 
 /// Replaces a state by that of a finer mesh.
-void replace(const Model& model, const Analysis& analysis, const RefinedStates& refined, State& state) {
+void replace(const ResolvedModel& model, const Analysis& analysis, const RefinedStates& refined,
+             State& state) {
   const StaticState& at = refined.states.front();
   State finer = make_state(*refined.structure, model, at.y, at.lambda, analysis.output.points_per_member);
   finer.branch = state.branch;
@@ -27,7 +28,7 @@ void replace(const Model& model, const Analysis& analysis, const RefinedStates& 
 
 }  // namespace
 
-void refine_path_states(const Model& model, const Analysis& analysis, const Structure& structure,
+void refine_path_states(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                         const std::vector<StaticState>& states, const std::stop_token& stop, Result& result) {
   const FindStates no_other = [](const Structure&, const std::vector<StaticState>&) {
     return std::vector<StaticState>();

@@ -50,7 +50,7 @@ void Recorder::begin_branch(int branch_number, std::optional<int> parent) {
     branch.monitors.push_back({monitor.id, {}});
     branch.rates->monitors.push_back({monitor.id, {}});
   }
-  for (const Foundation& foundation : model_.foundations)
+  for (const ResolvedFoundation& foundation : model_.foundations)
     branch.contact_fraction.push_back({foundation.id, {}});
   result_.branches.push_back(std::move(branch));
 }

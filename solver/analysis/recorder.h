@@ -25,8 +25,8 @@ struct Structure;
 /// Records the path, its critical points and the requested states.
 class Recorder final : public PathObserver {
  public:
-  Recorder(const Model& model, const Analysis& analysis, const Structure& structure, PointSolver& solver,
-           SoftestPoint& softest, const Hooks& hooks, Result& result)
+  Recorder(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
+           PointSolver& solver, SoftestPoint& softest, const Hooks& hooks, Result& result)
       : model_(model),
         analysis_(analysis),
         structure_(structure),
@@ -77,7 +77,7 @@ class Recorder final : public PathObserver {
   [[nodiscard]] std::vector<NamedValue> monitors(const PathPoint& point) const;
   [[nodiscard]] double user_load(const PathPoint& point) const;
 
-  const Model& model_;
+  const ResolvedModel& model_;
   const Analysis& analysis_;
   const Structure& structure_;
   PointSolver& solver_;

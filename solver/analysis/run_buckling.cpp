@@ -14,7 +14,6 @@
 #include "solver/discrete/free_motions.h"
 #include "solver/events/buckling.h"
 #include "solver/events/touching.h"
-#include "solver/model/id_index.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/mode.h"
 #include "solver/report/neutral_motion.h"
@@ -54,13 +53,13 @@ struct ContactShares {
 };
 
 /// @param laws the model with opposite supports joined
-ContactShares shares_of(const Structure& structure, const Model& laws, const StructuralProblem& problem,
-                        const FrozenContact& contact) {
+ContactShares shares_of(const Structure& structure, const ResolvedModel& laws,
+                        const StructuralProblem& problem, const FrozenContact& contact) {
   ContactShares out;
   for (std::size_t i = 0; i < laws.foundations.size(); ++i) {
-    const Foundation& foundation = laws.foundations[i];
+    const ResolvedFoundation& foundation = laws.foundations[i];
     if (!is_one_sided(foundation)) continue;
-    const int member = index_of(laws.members, foundation.member);
+    const int member = foundation.member;
     GluedLength& length = out.foundations[foundation.id];
     length.all += (foundation.range[1] - foundation.range[0]) * structure.axes[member]->length() /
                   structure.scales.length;
@@ -72,7 +71,7 @@ ContactShares shares_of(const Structure& structure, const Model& laws, const Str
                                   std::vector<char>(contact.element_springs.size(), 1),
                                   std::vector<char>(contact.node_springs.size(), 1)};
   for (const TouchingSupports::Spring& spring : problem.touching(all_springs, &contact).springs) {
-    const Spring& law = laws.springs[static_cast<std::size_t>(spring.spring)];
+    const ResolvedSpring& law = laws.springs[static_cast<std::size_t>(spring.spring)];
     if (is_one_sided(law))
       out.springs[(law.rod ? "member " : "spring ") + law.id] = spring.touch == Touch::acts;
   }
@@ -95,7 +94,7 @@ std::string contact_text(const ContactShares& shares, bool joined) {
 
 /// Whether contact can depend on the load factor. The linear response to a single set of actions without gaps
 /// is proportional to the load factor, and its contact constant.
-bool contact_depends_on_load(const Structure& structure, const Model& laws) {
+bool contact_depends_on_load(const Structure& structure, const ResolvedModel& laws) {
   const auto has_gap = [](const auto& support) { return is_one_sided(support) && support.gap > 0.0; };
   return structure.has_constant || std::any_of(laws.springs.begin(), laws.springs.end(), has_gap) ||
          std::any_of(laws.foundations.begin(), laws.foundations.end(), has_gap);
@@ -103,8 +102,8 @@ bool contact_depends_on_load(const Structure& structure, const Model& laws) {
 
 /// Warns when contact under the critical load differs from that under the reference load, on which the
 /// linearised analysis is based.
-void warn_of_changed_contact(const Structure& structure, const Model& laws, StructuralProblem& problem,
-                             const LinearBuckling& buckling, Result& result) {
+void warn_of_changed_contact(const Structure& structure, const ResolvedModel& laws,
+                             StructuralProblem& problem, const LinearBuckling& buckling, Result& result) {
   if (!structure.one_sided || !result.summary.critical_load_factor ||
       !contact_depends_on_load(structure, laws))
     return;
@@ -194,7 +193,7 @@ void report_errors(const Analysis& analysis, Result& result) {
 }
 
 /// Converts the loads of one sense of the proportional actions to the model's units.
-FoundLoads found_loads(const Model& model, const Analysis& analysis, const BucklingLoads& loads) {
+FoundLoads found_loads(const ResolvedModel& model, const Analysis& analysis, const BucklingLoads& loads) {
   const LinearBuckling& buckling = loads.buckling;
   FoundLoads found{{}, {}, loads.errors, buckling.negative_at_start};
   std::vector<double> lengths;
@@ -279,7 +278,8 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
   result.buckling = in_order(std::move(found), std::move(reversed));
 }
 
-void run_buckling(const Model& model, const Analysis& analysis, const Structure& first, Result& result) {
+void run_buckling(const ResolvedModel& model, const Analysis& analysis, const Structure& first,
+                  Result& result) {
   const BucklingLoads loads = buckling_loads(model, analysis, first);
   const Structure& structure = *loads.structure;
   const LinearBuckling& buckling = loads.buckling;
@@ -306,8 +306,8 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   report_buckling(analysis, found_loads(model, analysis, loads), std::move(reversed), result);
   warn_of_touching(structure, buckling.piece, result);
   StructuralProblem problem(structure);
-  const std::optional<Model> joined = with_joined_supports(model);
-  const Model& laws = joined ? *joined : model;
+  const std::optional<ResolvedModel> joined = with_joined_supports(model);
+  const ResolvedModel& laws = joined ? *joined : model;
   // without one-sided supports no contact was frozen
   const ContactShares shares =
       structure.one_sided ? shares_of(structure, laws, problem, buckling.contact) : ContactShares{};
@@ -321,13 +321,13 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   warn_of_changed_laws(structure, problem, buckling, result);
 }
 
-ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std::stop_token& stop) {
+ModeOffsets mode_offsets(const ResolvedModel& model, const Analysis& analysis, const std::stop_token& stop) {
   int highest = 0;
-  for (const Imperfection& imperfection : model.imperfections)
+  for (const ResolvedImperfection& imperfection : model.imperfections)
     if (const auto* mode = std::get_if<ModeImperfection>(&imperfection))
       highest = std::max(highest, mode->number);
   if (highest == 0) return {};
-  Model perfect = model;
+  ResolvedModel perfect = model;
   perfect.imperfections.clear();
   Structure structure = make_structure(perfect, analysis.discretization, Geometry::nonlinear);
   structure.free_motions = free_motions(perfect);
@@ -343,7 +343,7 @@ ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std
     throw std::runtime_error("an imperfection names buckling mode " + std::to_string(highest) +
                              ", but only " + std::to_string(buckling.loads.size()) + " exist");
   ModeOffsets offsets(model.members.size());
-  for (const Imperfection& imperfection : model.imperfections) {
+  for (const ResolvedImperfection& imperfection : model.imperfections) {
     const auto* mode = std::get_if<ModeImperfection>(&imperfection);
     if (mode == nullptr || mode->amplitude == 0.0) continue;
     const auto splines = normal_offsets(structure, model, buckling.modes[mode->number - 1], mode->amplitude);

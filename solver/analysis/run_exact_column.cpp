@@ -15,7 +15,7 @@ namespace snapthrough {
 namespace {
 
 /// Samples a mode at equally spaced places of each member.
-Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
+Mode sample(const ColumnLine& line, const ColumnMode& mode, const ResolvedModel& model,
             const std::vector<double>& lengths, int points) {
   Mode out;
   out.members.resize(model.members.size());
@@ -47,7 +47,7 @@ Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
 }
 
 /// Largest compression of each member at a load factor.
-std::vector<double> compressions_of(const ColumnLine& line, const Model& model, double load) {
+std::vector<double> compressions_of(const ColumnLine& line, const ResolvedModel& model, double load) {
   std::vector<double> out(model.members.size(), -std::numeric_limits<double>::infinity());
   for (const ColumnSpan& span : line.spans) {
     double& largest = out[static_cast<std::size_t>(span.member)];
@@ -65,8 +65,8 @@ struct Solution {
 
 /// @param lengths one per member
 /// @return empty when the column's equation cannot be solved to rounding
-std::optional<Solution> solve_column(const ColumnLine& line, const Model& model, const Analysis& analysis,
-                                     const std::vector<double>& lengths) {
+std::optional<Solution> solve_column(const ColumnLine& line, const ResolvedModel& model,
+                                     const Analysis& analysis, const std::vector<double>& lengths) {
   auto buckling = column_buckling(line, analysis.modes);
   if (!buckling) return std::nullopt;
   const std::vector<ColumnMode> modes = column_modes(line, buckling->loads);
@@ -109,7 +109,8 @@ void report_loads(const Analysis& analysis, const ColumnLine& line, const Column
 
 }  // namespace
 
-bool run_exact_column(const Model& model, const Analysis& analysis, const Hooks& hooks, Result& result) {
+bool run_exact_column(const ResolvedModel& model, const Analysis& analysis, const Hooks& hooks,
+                      Result& result) {
   if (analysis.discretization.fixed_mesh) return false;
   std::optional<ColumnLine> line = column_line(model);
   if (!line) return false;

@@ -51,7 +51,7 @@ const SparseRow* row_of(const Structure& structure, const std::string& monitor) 
   return &found->row;
 }
 
-TraceRules rules_of(const Model& model, const Analysis& analysis, const Structure& structure) {
+TraceRules rules_of(const ResolvedModel& model, const Analysis& analysis, const Structure& structure) {
   TraceRules rules;
   rules.locate = locate_options(model, analysis);
   if (analysis.type == AnalysisType::critical) {
@@ -254,7 +254,7 @@ struct Pending {
 /// Follows branches of the primary path, and branches of those, within the request's limits.
 class BranchFollower {
  public:
-  BranchFollower(const Model& model, const Analysis& analysis, const Structure& structure,
+  BranchFollower(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                  PathFollower& follower, Recorder& recorder, CriticalLoads& loads, MonitorWatch& watch,
                  const Hooks& hooks)
       : analysis_(analysis),
@@ -338,7 +338,7 @@ namespace {
 
 /// Function that adds requested sensitivities and Koiter coefficients to a critical point, and shows it to
 /// the visitor; may be empty.
-Complete completer(const Model& model, const Analysis& analysis, const Hooks& hooks,
+Complete completer(const ResolvedModel& model, const Analysis& analysis, const Hooks& hooks,
                    const CriticalVisitor& visit, Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter && !visit) return {};
   return [&](const Structure& structure, const PathNorm& norm, const CriticalEvent& event,
@@ -346,7 +346,9 @@ Complete completer(const Model& model, const Analysis& analysis, const Hooks& ho
     const LocatedPoint at{event, norm.metric().load_weight,
                           PolishLimits::reach * norm.search_scale(event.point), norm.least_load()};
     int& factorisations = result.diagnostics.factorizations;
-    const auto offsets = [&](const Model& changed) { return mode_offsets(changed, analysis, hooks.stop); };
+    const auto offsets = [&](const ResolvedModel& changed) {
+      return mode_offsets(changed, analysis, hooks.stop);
+    };
     if (!analysis.sensitivities.empty())
       point.sensitivities =
           load_sensitivities(model, analysis.sensitivities, structure, at, offsets, factorisations);
@@ -359,7 +361,7 @@ Complete completer(const Model& model, const Analysis& analysis, const Hooks& ho
 
 /// Rules of a primary path.
 /// @param problem, watch, loads, recorder kept by reference; must outlive the rules
-TraceRules primary_rules(const Model& model, const Analysis& analysis, const Structure& structure,
+TraceRules primary_rules(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                          const CapacityEnds* capacity, StructuralProblem& problem, CriticalLoads& loads,
                          Recorder& recorder) {
   TraceRules rules = rules_of(model, analysis, structure);
@@ -372,7 +374,7 @@ TraceRules primary_rules(const Model& model, const Analysis& analysis, const Str
 /// Reports the capacity of supports that ended a path.
 /// @param count critical points of the primary path in the result
 /// @return whether everything that the path met is confirmed; the limit needs no finer mesh
-bool confirm_capacity(const Model& model, const Analysis& analysis, const Structure& structure,
+bool confirm_capacity(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                       const CapacityEnds& capacity, const TraceOutcome& outcome, std::size_t count,
                       bool confirmed, Result& result) {
   report_capacity_point(analysis, capacity, structure, model, outcome, count, result);
@@ -382,13 +384,13 @@ bool confirm_capacity(const Model& model, const Analysis& analysis, const Struct
 
 /// Sets the rule that follows the natural motions, and what is known of them at the start.
 /// @param flutter has to live as long as the rules
-void add_vibration_rule(const Model& model, const Structure& structure, PointSolver& solver,
+void add_vibration_rule(const ResolvedModel& model, const Structure& structure, PointSolver& solver,
                         const PathStart& start, std::optional<FlutterSearch>& flutter, TraceRules& rules) {
   rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
   rules.grows_at_start = start.grows_from.has_value();
 }
 
-void warn_of_vibrations(const Model& model, const Structure& structure, const PathStart& start,
+void warn_of_vibrations(const ResolvedModel& model, const Structure& structure, const PathStart& start,
                         Result& result) {
   warn_of_untested_flutter(model, structure, result);
   warn_of_growth_at_start(start, result);
@@ -398,7 +400,7 @@ void warn_of_vibrations(const Model& model, const Structure& structure, const Pa
 /// @param earlier critical points of the path on a coarser mesh
 /// @param decays bending decay lengths at the path's end, for the next mesh
 /// @return whether finer meshes confirm the result, or nothing needs confirmation
-bool follow_on(const Model& model, const Analysis& analysis, const Structure& structure,
+bool follow_on(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                const CapacityEnds* capacity, const std::vector<CriticalPoint>& earlier, const Hooks& hooks,
                const CriticalVisitor& visit, Result& result, std::vector<double>& decays) {
   StructuralProblem problem(structure);
@@ -462,7 +464,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
 /// Mesh after an unconfirmed path: every element divided into four, or the mesh that resolves every
 /// foundation if that has fewer elements; refined at boundary layers of the path's end state. Empty when no
 /// still finer mesh could confirm it.
-std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
+std::optional<Mesh> much_finer(const Structure& structure, const ResolvedModel& model,
                                const std::vector<double>& decays) {
   const auto halved = finer_mesh(structure.mesh);
   const auto quartered = halved ? finer_mesh(*halved) : std::nullopt;
@@ -476,7 +478,7 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
 }
 
 /// Whether an imperfection moves the axis of a member.
-bool has_offsets(const Model& model) {
+bool has_offsets(const ResolvedModel& model) {
   const auto moves = [](const auto& one) {
     if constexpr (requires { one.offsets; })
       return std::ranges::any_of(one.offsets, [](const auto& pair) { return pair[1] != 0.0; });
@@ -484,12 +486,12 @@ bool has_offsets(const Model& model) {
       return one.amplitude != 0.0;
   };
   return std::ranges::any_of(model.imperfections,
-                             [&](const Imperfection& one) { return std::visit(moves, one); });
+                             [&](const ResolvedImperfection& one) { return std::visit(moves, one); });
 }
 
 }  // namespace
 
-LocateOptions locate_options(const Model& model, const Analysis& analysis) {
+LocateOptions locate_options(const ResolvedModel& model, const Analysis& analysis) {
   LocateOptions options;
   // an imperfection of the request breaks bifurcations, however small
   const bool imperfect = has_offsets(model);
@@ -512,7 +514,7 @@ bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) 
          (analysis.start || point.load_factor * path_direction(analysis) > 0.0);
 }
 
-void run_path(const Model& model, const Analysis& analysis, const Structure& structure,
+void run_path(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
               const CapacityEnds* capacity, const Hooks& hooks, Result& result,
               const CriticalVisitor& visit) {
   const Structure* mesh = &structure;

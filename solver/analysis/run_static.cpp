@@ -43,7 +43,7 @@ class StaticRows {
  public:
   /// @param asked whether a row is requested, one entry per load factor
   /// @param visit may be empty
-  StaticRows(const Model& model, const Analysis& analysis, const Structure& structure,
+  StaticRows(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
              const std::vector<char>& asked, const StateVisitor& visit)
       : model_(model),
         analysis_(analysis),
@@ -92,7 +92,7 @@ class StaticRows {
   };
   [[nodiscard]] bool wants_state(std::size_t index) const;
 
-  const Model& model_;
+  const ResolvedModel& model_;
   const Analysis& analysis_;
   const Structure& structure_;
   const std::vector<char>& asked_;
@@ -141,7 +141,7 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const S
 void StaticRows::move_to(Result& result) {
   StaticTable& table = result.static_table.emplace();
   for (const MonitorRow& monitor : structure_.monitors) table.monitors.push_back({monitor.id, {}});
-  for (const Foundation& foundation : model_.foundations)
+  for (const ResolvedFoundation& foundation : model_.foundations)
     table.contact_fraction.push_back({foundation.id, {}});
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!rows_[i]) {
@@ -205,8 +205,8 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
 }
 
 /// @brief Makes the result's entry for a critical point of a static path, without mesh confirmation.
-CriticalPoint unconfirmed_point(const Structure& structure, const Model& model, const CriticalEvent& event,
-                                const VectorXd& motion) {
+CriticalPoint unconfirmed_point(const Structure& structure, const ResolvedModel& model,
+                                const CriticalEvent& event, const VectorXd& motion) {
   CriticalPoint point = critical_point(structure, event);
   if (point.multiplicity == 1)
     if (const auto member = member_that_buckles(structure, model, motion))
@@ -215,7 +215,7 @@ CriticalPoint unconfirmed_point(const Structure& structure, const Model& model, 
 }
 
 /// Reports the critical point that ends a static path, as failure with its mode.
-void fail_at(const Model& model, const Analysis& analysis, const Structure& structure,
+void fail_at(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
              StructuralProblem& problem, const CriticalEvent& event, Result& result) {
   const VectorXd motion = mode_of(problem, event);
   Mode mode = mode_displacements(structure, model, motion, analysis.output.points_per_member);
@@ -239,8 +239,8 @@ void fail_at(const Model& model, const Analysis& analysis, const Structure& stru
 
 /// Trace rules of a static path up to a load factor.
 /// @param scale scaled load factor of the load factor 1
-TraceRules static_rules(const Model& model, const Analysis& analysis, const StaticRows& states, double last,
-                        double scale) {
+TraceRules static_rules(const ResolvedModel& model, const Analysis& analysis, const StaticRows& states,
+                        double last, double scale) {
   TraceRules rules;
   rules.load = {{-last * scale, last * scale}};
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
@@ -253,7 +253,7 @@ TraceRules static_rules(const Model& model, const Analysis& analysis, const Stat
 }
 
 /// Sets the failure of a static path that ended before its last load factor.
-void fail_at_end(const Model& model, const Analysis& analysis, const Structure& structure,
+void fail_at_end(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                  const CapacityEnds* capacity, StructuralProblem& problem, const TraceOutcome& outcome,
                  Result& result) {
   const std::string where = number(outcome.last.lambda / structure.scales.load);
@@ -280,7 +280,7 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
 /// Keeps the states at the asked load factors that a path passes.
 class StaticObserver final : public PathObserver {
  public:
-  StaticObserver(const Model& model, const Analysis& analysis, const Structure& structure,
+  StaticObserver(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                  SoftestPoint& softest, StaticRows& states, Result& result)
       : analysis_(analysis),
         structure_(structure),
@@ -317,7 +317,7 @@ class StaticObserver final : public PathObserver {
 };
 
 /// Follows the path through all load factors of one sign, stores their states; false when it ends earlier.
-bool follow(const Model& model, const Analysis& analysis, const Structure& structure,
+bool follow(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
             const CapacityEnds* capacity, double direction, const Hooks& hooks, StaticRows& states,
             Result& result) {
   double last = 0.0;
@@ -360,7 +360,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
 }
 
 /// Computes the states at all requested load factors.
-void compute(const Model& model, const Analysis& analysis, const Structure& structure,
+void compute(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
              const CapacityEnds* capacity, const Hooks& hooks, StaticRows& states, Result& result) {
   if (analysis.geometry == Geometry::linear) {
     StructuralProblem problem(structure);
@@ -385,7 +385,7 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
 }
 
 /// The states of a static analysis on a mesh that meets its accuracy.
-RefinedStates refined(const Model& model, const Analysis& analysis, const Structure& structure,
+RefinedStates refined(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                       const CapacityEnds* capacity, const Hooks& hooks,
                       const std::vector<StaticState>& states, Result& result) {
   Analysis bare = analysis;
@@ -438,7 +438,7 @@ void report_stability(const Analysis& analysis, Result& result) {
 
 }  // namespace
 
-void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
+void run_static(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                 const HeldRows& held, const Hooks& hooks, Result& result, const StateVisitor& visit) {
   StaticRows states(model, analysis, structure, held.factors, visit);
   result.summary.termination = "load_factors";

@@ -34,8 +34,8 @@ struct Level {
   Result result;       ///< the states, as a static analysis gives them
 };
 
-Level solve_on(const Model& model, const Analysis& analysis, std::shared_ptr<const Structure> structure,
-               const HeldRows& held, const Hooks& hooks) {
+Level solve_on(const ResolvedModel& model, const Analysis& analysis,
+               std::shared_ptr<const Structure> structure, const HeldRows& held, const Hooks& hooks) {
   Level out;
   out.structure = std::move(structure);
   out.rows.resize(analysis.load_factors.size());
@@ -88,8 +88,8 @@ bool compare(const Level& coarse, const Level& fine, double accuracy,
   return within;
 }
 
-Vibration vibration_at(const Model& model, const Analysis& analysis, const Level& level, std::size_t row,
-                       const std::vector<RankError>& errors) {
+Vibration vibration_at(const ResolvedModel& model, const Analysis& analysis, const Level& level,
+                       std::size_t row, const std::vector<RankError>& errors) {
   const NaturalMotions& motions = *level.rows[row];
   Vibration out;
   out.load_factor = analysis.load_factors[row];
@@ -136,7 +136,7 @@ void report_missing(const Analysis& analysis, const Level& level, Result& result
   }
 }
 
-void report_rows(const Model& model, const Analysis& analysis, const Level& level,
+void report_rows(const ResolvedModel& model, const Analysis& analysis, const Level& level,
                  const std::vector<std::vector<RankError>>& errors, Result& result) {
   auto& out = result.vibrations.emplace();
   for (std::size_t row = 0; row < level.rows.size(); ++row)
@@ -147,7 +147,7 @@ void report_rows(const Model& model, const Analysis& analysis, const Level& leve
 
 }  // namespace
 
-void run_vibration(const Model& model, const Analysis& analysis, const Structure& structure,
+void run_vibration(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
                    const HeldRows& held, const Hooks& hooks, Result& result) {
   const double accuracy = analysis.discretization.accuracy;
   std::vector<std::vector<RankError>> errors(analysis.load_factors.size());

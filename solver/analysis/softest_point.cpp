@@ -169,7 +169,7 @@ void SoftestPoint::search(PathPoint low, PathPoint high) {
   if (!lowest_ || stiffness_of(best)->value < stiffness_of(*lowest_)->value) lowest_ = std::move(best);
 }
 
-void SoftestPoint::report(const Structure& structure, const Model& model, const Analysis& analysis,
+void SoftestPoint::report(const Structure& structure, const ResolvedModel& model, const Analysis& analysis,
                           Result& result) const {
   const bool with_mode = analysis.output.modes && analysis.output.states != StateOutput::none;
   Summary& summary = result.summary;
@@ -197,7 +197,7 @@ void SoftestPoint::report(const Structure& structure, const Model& model, const 
   summary.softest = std::move(softest);
 }
 
-AtCritical at_critical(const Structure& structure, const Model& model, const Eigen::VectorXd& y) {
+AtCritical at_critical(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y) {
   AtCritical out;
   std::array<double, 2> least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   std::array<double, 2> most{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};

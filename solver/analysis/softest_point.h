@@ -6,8 +6,8 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
 #include "solver/path/point_solver.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -42,7 +42,8 @@ class SoftestPoint {
   ///
   /// Without a minimum before the critical point, that point is the softest.
   /// @pre result.summary has its final critical load and message
-  void report(const Structure& structure, const Model& model, const Analysis& analysis, Result& result) const;
+  void report(const Structure& structure, const ResolvedModel& model, const Analysis& analysis,
+              Result& result) const;
 
  private:
   /// Finds a local minimum of the stiffness between two path points.
@@ -62,7 +63,7 @@ class SoftestPoint {
 
 /// @brief Largest displacement, rotation and strain of a state, for Summary::at_critical.
 /// @param y scaled unknowns
-[[nodiscard]] AtCritical at_critical(const Structure& structure, const Model& model,
+[[nodiscard]] AtCritical at_critical(const Structure& structure, const ResolvedModel& model,
                                      const Eigen::VectorXd& y);
 
 }  // namespace snapthrough

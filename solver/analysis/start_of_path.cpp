@@ -26,7 +26,7 @@ struct StartLimits {
 };
 
 /// Explains why no equilibrium was found under the first small load.
-std::string nothing_found(const Model& model, const Structure& structure, const PathStart& start) {
+std::string nothing_found(const ResolvedModel& model, const Structure& structure, const PathStart& start) {
   const Eigen::VectorXd& motion = start.free_motion;
   if (const auto& far = start.far_state) {
     return "the first state that was found lies farther from the unloaded structure than its gaps and "
@@ -49,7 +49,8 @@ std::string nothing_found(const Model& model, const Structure& structure, const 
          model.nodes[node].id + "\")";
 }
 
-void fail_to_start(const Model& model, const Structure& structure, const PathStart& start, Result& result) {
+void fail_to_start(const ResolvedModel& model, const Structure& structure, const PathStart& start,
+                   Result& result) {
   const bool loose = start.free_motion.size() > 0;
   fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, start));
 }
@@ -95,7 +96,7 @@ PathPoint fully_loaded(const Structure& structure, StructuralProblem& problem, P
 /// Hands what is known of stability on the constant actions' path to the start of the next path: the number
 /// of real eigenvalues below zero, of which a tangent that is not symmetric tells the parity alone, and
 /// flutter.
-void hand_on_stability(const Model& model, const Structure& structure, StructuralProblem& problem,
+void hand_on_stability(const ResolvedModel& model, const Structure& structure, StructuralProblem& problem,
                        const TraceOutcome& outcome, PathStart& start) {
   PathPoint& point = *start.point;
   point.negative = count_next_to(outcome.last.negative, {point.negative, 0.0, true});
@@ -108,7 +109,7 @@ void hand_on_stability(const Model& model, const Structure& structure, Structura
 
 }  // namespace
 
-PathStart start_at_state(const Model& model, const Structure& structure, PointSolver& solver,
+PathStart start_at_state(const ResolvedModel& model, const Structure& structure, PointSolver& solver,
                          const Analysis& analysis, Result& result) {
   const StartState& state = *analysis.start;
   Eigen::VectorXd given;
@@ -141,7 +142,7 @@ PathStart start_at_state(const Model& model, const Structure& structure, PointSo
   return {};
 }
 
-PathStart start_of_path(const Model& model, const Structure& structure, StructuralProblem& problem,
+PathStart start_of_path(const ResolvedModel& model, const Structure& structure, StructuralProblem& problem,
                         PointSolver& solver, double direction, const Hooks& hooks, Result& result,
                         const std::function<void(const PathPoint&)>& on_unloaded) {
   if (!structure.has_constant) {

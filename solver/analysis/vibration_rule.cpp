@@ -7,7 +7,7 @@
 namespace snapthrough {
 
 std::function<StepVibrations(const PathPoint&, const PathPoint&)> vibration_rule(
-    const Model& model, const Structure& structure, PointSolver& solver, double tolerance,
+    const ResolvedModel& model, const Structure& structure, PointSolver& solver, double tolerance,
     std::optional<FlutterSearch>& flutter, StructuralProblem::Stage stage) {
   if (!structure.unsymmetric()) return {};
   if (has_mass(model)) flutter.emplace(structure, model, stage);
@@ -22,7 +22,7 @@ void warn_of_growth_at_start(const PathStart& start, Result& result) {
                                              rounded(*start.grows_from) + " of the constant actions on"});
 }
 
-void warn_of_untested_flutter(const Model& model, const Structure& structure, Result& result) {
+void warn_of_untested_flutter(const ResolvedModel& model, const Structure& structure, Result& result) {
   if (!structure.unsymmetric()) return;
   if (has_mass(model)) {
     const MassMatrix masses = make_mass_matrix(structure, model);

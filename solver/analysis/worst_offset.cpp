@@ -46,17 +46,18 @@ class Search {
  public:
   Search(const Model& model, const Analysis& analysis, const RunCritical& run, const std::stop_token& stop)
       : model_(model),
+        resolved_(resolve(model)),
         norm_(worst_imperfection(model)->norm),
         amplitude_(worst_imperfection(model)->amplitude),
         run_(run),
         stop_(stop),
         analysis_(analysis),
-        space_(lengths_of(model)) {}
+        space_(lengths_of(resolved_)) {}
 
   [[nodiscard]] WorstSearch find();
 
  private:
-  static std::vector<double> lengths_of(const Model& model);
+  static std::vector<double> lengths_of(const ResolvedModel& model);
   Result follow(const VectorXd& offsets, std::optional<OffsetWorks>* works);
   void evaluate(Shape& shape, bool with_works);
   [[nodiscard]] std::vector<Shape> starts(const OffsetWorks& perfect) const;
@@ -69,6 +70,7 @@ class Search {
                                    const Shape& best) const;
 
   const Model& model_;
+  const ResolvedModel resolved_;
   const OffsetNorm norm_;
   const double amplitude_;
   const RunCritical& run_;
@@ -80,7 +82,7 @@ class Search {
   int failed_ = 0;  ///< paths that failed
 };
 
-std::vector<double> Search::lengths_of(const Model& model) {
+std::vector<double> Search::lengths_of(const ResolvedModel& model) {
   std::vector<double> out;
   for (const auto& axis : make_axes(model)) out.push_back(axis->length());
   return out;
@@ -89,7 +91,8 @@ std::vector<double> Search::lengths_of(const Model& model) {
 /// Follows the path of the model with offsets of the wanted amplitude.
 /// @param works receives the works at the critical point; null: they are not needed
 Result Search::follow(const VectorXd& offsets, std::optional<OffsetWorks>* works) {
-  const Model with = with_offsets(model_, space_.member_offsets(model_, amplitude_ * offsets));
+  const ResolvedModel with =
+      resolve(with_offsets(model_, space_.member_offsets(resolved_, amplitude_ * offsets)));
   ++paths_;
   if (works == nullptr) return run_(with, {});
   std::optional<OffsetWorks> last;
@@ -209,7 +212,7 @@ WorstOffset Search::report(const Result& perfect, const OffsetWorks& at_perfect,
   }
   if (best.load < std::numeric_limits<double>::infinity()) out.load_factor = best.load;
   out.paths = paths_;
-  out.imperfections = space_.member_offsets(model_, amplitude_ * best.offsets);
+  out.imperfections = space_.member_offsets(resolved_, amplitude_ * best.offsets);
   return out;
 }
 

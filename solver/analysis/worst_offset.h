@@ -9,6 +9,7 @@
 #include "solver/analysis/analyses.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -25,7 +26,7 @@ namespace snapthrough {
 [[nodiscard]] Analysis search_analysis(const Analysis& analysis);
 
 /// Runs the search analysis on a model without worst imperfection.
-using RunCritical = std::function<Result(const Model& model, const CriticalVisitor& visit)>;
+using RunCritical = std::function<Result(const ResolvedModel& model, const CriticalVisitor& visit)>;
 
 /// Outcome of the search: one of both members.
 struct WorstSearch {

@@ -2,6 +2,7 @@
 
 #include "solver/check/check_parts.h"
 #include "solver/discrete/mechanism.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -26,7 +27,7 @@ std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   checks::check_analysis(root, model, analysis, names);
   checks::check_supported(root, model, analysis);
   if (findings.empty()) checks::check_obstacles(root, model, analysis);
-  return findings.empty() ? find_mechanism(model) : findings;
+  return findings.empty() ? find_mechanism(resolve(model)) : findings;
 }
 
 }  // namespace snapthrough

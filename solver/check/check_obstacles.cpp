@@ -129,7 +129,10 @@ void check_obstacles(const Place& root, const Model& model, const Analysis& anal
   for (const Foundation& obstacle : model.foundations) {
     if (!is_rigid(obstacle)) continue;
     const Member& member = model.members[static_cast<std::size_t>(members.of(obstacle.member))];
-    const AxisCurve axis = axis_of(model, nodes, member);
+    const auto node = [&](const std::string& id) {
+      return model.nodes[static_cast<std::size_t>(nodes.of(id))];
+    };
+    const AxisCurve axis = axis_of(member.curve, model.nodes.front(), node(member.start), node(member.end));
     const double length = axis.length();
     for (const double fraction : obstacle.range) {
       if (fraction != 0.0 && fraction != 1.0) continue;

@@ -9,9 +9,8 @@
 #include <variant>
 
 #include "solver/geometry/axes.h"
-#include "solver/model/id_index.h"
-#include "solver/model/member_loads.h"
 #include "solver/numeric/rounding.h"
+#include "solver/resolve/member_loads.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -30,7 +29,7 @@ double dot(const Vec2& a, const Vec2& b) { return a[0] * b[0] + a[1] * b[1]; }
 enum class Way { along, across, neither };
 
 /// Whether a joint of the member is an elastic hinge.
-bool is_semi_rigid(const Member& member) {
+bool is_semi_rigid(const ResolvedMember& member) {
   return (member.release_start_rotation && !is_hinged_at_start(member)) ||
          (member.release_end_rotation && !is_hinged_at_end(member));
 }
@@ -38,7 +37,7 @@ bool is_semi_rigid(const Member& member) {
 /// Reads a model as a column; each step returns false if the model is none.
 class LineReader {
  public:
-  explicit LineReader(const Model& model) : model_(model) {}
+  explicit LineReader(const ResolvedModel& model) : model_(model) {}
   [[nodiscard]] bool read();
   [[nodiscard]] ColumnLine take() { return std::move(line_); }
 
@@ -67,25 +66,25 @@ class LineReader {
   void cut(Link& link) const;
   void add_spans();
   [[nodiscard]] bool add_supports();
-  [[nodiscard]] bool add_support(const Support& support, int joint);
+  [[nodiscard]] bool add_support(const ResolvedSupport& support, int joint);
   [[nodiscard]] bool add_springs();
   [[nodiscard]] bool add_foundations();
   [[nodiscard]] bool add_loads();
-  [[nodiscard]] bool add_point_load(const PointLoad& load);
-  [[nodiscard]] bool add_strain(const InitialStrain& strain);
+  [[nodiscard]] bool add_point_load(const ResolvedPointLoad& load);
+  [[nodiscard]] bool add_strain(const ResolvedInitialStrain& strain);
   [[nodiscard]] bool add_prestress();
   void add_forces_between(std::size_t first, std::size_t second, int pattern);
   [[nodiscard]] bool has_release(int member, bool at_end) const;
 
   [[nodiscard]] Way way_of(const Vec2& direction) const;
-  [[nodiscard]] const Link& link_of(const std::string& member) const;
+  [[nodiscard]] const Link& link_of(int member) const;
   [[nodiscard]] int joint_at(const Link& link, double fraction) const;
-  [[nodiscard]] int joint_at(const Location& at) const;
+  [[nodiscard]] int joint_at(const ResolvedLocation& at) const;
   /// Rotational restraint of a node; null when no member feels it.
   [[nodiscard]] ColumnSide* side_of_node(int joint);
-  [[nodiscard]] ColumnSide& side_at(const Location& at, int joint);
+  [[nodiscard]] ColumnSide& side_at(const ResolvedLocation& at, int joint);
 
-  const Model& model_;
+  const ResolvedModel& model_;
   ColumnLine line_;
   Vec2 along_{};
   std::vector<Link> links_;
@@ -96,20 +95,21 @@ class LineReader {
 };
 
 bool LineReader::is_simple() const {
-  for (const Imperfection& imperfection : model_.imperfections)
-    if (const auto* sine = std::get_if<SineImperfection>(&imperfection); !sine || sine->amplitude != 0.0)
+  for (const ResolvedImperfection& imperfection : model_.imperfections)
+    if (const auto* sine = std::get_if<ResolvedSineImperfection>(&imperfection);
+        !sine || sine->amplitude != 0.0)
       return false;
-  for (const Member& member : model_.members) {
-    const Section& section = model_.sections[index_of(model_.sections, member.section)];
+  for (const ResolvedMember& member : model_.members) {
+    const Section& section = model_.sections[member.section];
     if (!std::holds_alternative<LineCurve>(member.curve) || is_semi_rigid(member) || section.GA ||
         section.EA.varies() || section.EI.varies())
       return false;
   }
-  for (const Spring& spring : model_.springs)
+  for (const ResolvedSpring& spring : model_.springs)
     if (spring.to || spring.law || spring.displacement ||
         (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral))
       return false;
-  for (const Foundation& foundation : model_.foundations)
+  for (const ResolvedFoundation& foundation : model_.foundations)
     if (foundation.law || foundation.tangential || foundation.displacement ||
         (foundation.stiffness + foundation.shear_stiffness > 0.0 &&
          foundation.reaction != Reaction::bilateral))
@@ -118,12 +118,12 @@ bool LineReader::is_simple() const {
 }
 
 bool LineReader::add_member(int member, int from, Vec2& direction) {
-  const Member& m = model_.members[member];
-  const Node& a = model_.nodes[index_of(model_.nodes, m.start)];
-  const Node& b = model_.nodes[index_of(model_.nodes, m.end)];
+  const ResolvedMember& m = model_.members[member];
+  const Node& a = model_.nodes[m.start];
+  const Node& b = model_.nodes[m.end];
   Link link;
   link.member = member;
-  link.backwards = m.start != model_.nodes[from].id;
+  link.backwards = m.start != from;
   const double sign = link.backwards ? -1.0 : 1.0;
   direction = {sign * (b.x - a.x), sign * (b.y - a.y)};
   link.length = std::hypot(direction[0], direction[1]);
@@ -138,8 +138,8 @@ bool LineReader::order_members() {
   std::vector<std::vector<int>> at_node(model_.nodes.size());
   std::vector<Vec2> direction(1);
   for (std::size_t m = 0; m < model_.members.size(); ++m)
-    for (const std::string& id : {model_.members[m].start, model_.members[m].end})
-      at_node[index_of(model_.nodes, id)].push_back(static_cast<int>(m));
+    for (const int end : {model_.members[m].start, model_.members[m].end})
+      at_node[end].push_back(static_cast<int>(m));
   int node = -1;
   for (std::size_t i = 0; i < at_node.size(); ++i) {
     if (at_node[i].empty() || at_node[i].size() > 2) return false;
@@ -158,7 +158,7 @@ bool LineReader::order_members() {
       const Link& before = links_[links_.size() - 2];
       link.first_joint = before.first_joint + static_cast<int>(before.cuts.size()) - 1;
     }
-    node = index_of(model_.nodes, link.backwards ? model_.members[member].start : model_.members[member].end);
+    node = link.backwards ? model_.members[member].start : model_.members[member].end;
     joint_of_node_[node] = link.first_joint + static_cast<int>(link.cuts.size()) - 1;
     int next = -1;
     for (const int other : at_node[node])
@@ -169,19 +169,19 @@ bool LineReader::order_members() {
 }
 
 void LineReader::cut(Link& link) const {
-  const std::string& id = model_.members[link.member].id;
   std::vector<double>& cuts = link.cuts;
   cuts = {0.0, 1.0};
   const auto add = [&](double fraction) { cuts.push_back(link.backwards ? 1.0 - fraction : fraction); };
-  for (const Spring& spring : model_.springs)
-    if (spring.at.member == id && spring.stiffness > 0.0) add(spring.at.fraction);
-  for (const Foundation& foundation : model_.foundations) {
-    if (foundation.member != id || foundation.stiffness + foundation.shear_stiffness == 0.0) continue;
+  for (const ResolvedSpring& spring : model_.springs)
+    if (spring.at.member == link.member && spring.stiffness > 0.0) add(spring.at.fraction);
+  for (const ResolvedFoundation& foundation : model_.foundations) {
+    if (foundation.member != link.member || foundation.stiffness + foundation.shear_stiffness == 0.0)
+      continue;
     add(foundation.range[0]);
     add(foundation.range[1]);
   }
-  for (const Load& load : model_.loads)
-    if (const auto* point = std::get_if<PointLoad>(&load); point && point->at.member == id)
+  for (const ResolvedLoad& load : model_.loads)
+    if (const auto* point = std::get_if<ResolvedPointLoad>(&load); point && point->at.member == link.member)
       add(point->at.fraction);
   std::sort(cuts.begin(), cuts.end());
   const auto same = [](double a, double b) { return b - a <= LineLimits::one_place; };
@@ -190,19 +190,18 @@ void LineReader::cut(Link& link) const {
 }
 
 bool LineReader::has_release(int member, bool at_end) const {
-  const Member& m = model_.members[member];
+  const ResolvedMember& m = model_.members[member];
   return at_end ? m.release_end_rotation : m.release_start_rotation;
 }
 
 void LineReader::add_spans() {
   for (const Link& link : links_) {
     line_.length = std::max(line_.length, link.length);
-    const Member& member = model_.members[link.member];
-    line_.stiffness =
-        std::max(line_.stiffness, model_.sections[index_of(model_.sections, member.section)].EI.constant);
+    const ResolvedMember& member = model_.members[link.member];
+    line_.stiffness = std::max(line_.stiffness, model_.sections[member.section].EI.constant);
   }
   for (const Link& link : links_) {
-    const Section& section = model_.sections[index_of(model_.sections, model_.members[link.member].section)];
+    const Section& section = model_.sections[model_.members[link.member].section];
     for (std::size_t i = 0; i + 1 < link.cuts.size(); ++i) {
       ColumnSpan span;
       span.length = link.length * (link.cuts[i + 1] - link.cuts[i]) / line_.length;
@@ -236,9 +235,7 @@ Way LineReader::way_of(const Vec2& direction) const {
   return std::abs(dot(direction, along_)) <= LineLimits::aligned * size ? Way::across : Way::neither;
 }
 
-const LineReader::Link& LineReader::link_of(const std::string& member) const {
-  return links_[link_of_member_[index_of(model_.members, member)]];
-}
+const LineReader::Link& LineReader::link_of(int member) const { return links_[link_of_member_[member]]; }
 
 int LineReader::joint_at(const Link& link, double fraction) const {
   const double cut = link.backwards ? 1.0 - fraction : fraction;
@@ -248,9 +245,8 @@ int LineReader::joint_at(const Link& link, double fraction) const {
   return link.first_joint + static_cast<int>(nearest);
 }
 
-int LineReader::joint_at(const Location& at) const {
-  return at.member.empty() ? joint_of_node_[index_of(model_.nodes, at.node)]
-                           : joint_at(link_of(at.member), at.fraction);
+int LineReader::joint_at(const ResolvedLocation& at) const {
+  return at.is_on_member() ? joint_at(link_of(at.member), at.fraction) : joint_of_node_[at.node];
 }
 
 ColumnSide* LineReader::side_of_node(int joint) {
@@ -264,13 +260,13 @@ ColumnSide* LineReader::side_of_node(int joint) {
   return &at.right;
 }
 
-ColumnSide& LineReader::side_at(const Location& at, int joint) {
+ColumnSide& LineReader::side_at(const ResolvedLocation& at, int joint) {
   const Link& link = link_of(at.member);
   const bool last = joint == link.first_joint + static_cast<int>(link.cuts.size()) - 1;
   return last ? line_.joints[joint].left : line_.joints[joint].right;
 }
 
-bool LineReader::add_support(const Support& support, int joint) {
+bool LineReader::add_support(const ResolvedSupport& support, int joint) {
   const double angle = support.angle_degrees * std::numbers::pi / 180.0;
   const Vec2 axes[2] = {{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}};
   const PrescribedDisplacement d = support.displacement.value_or(PrescribedDisplacement{});
@@ -296,18 +292,18 @@ bool LineReader::add_support(const Support& support, int joint) {
 }
 
 bool LineReader::add_supports() {
-  for (const Support& support : model_.supports)
-    if (!add_support(support, joint_of_node_[index_of(model_.nodes, support.node)])) return false;
+  for (const ResolvedSupport& support : model_.supports)
+    if (!add_support(support, joint_of_node_[support.node])) return false;
   return true;
 }
 
 bool LineReader::add_springs() {
   const double unit = line_.stiffness / line_.length;  // unit of a rotational spring
-  for (const Spring& spring : model_.springs) {
+  for (const ResolvedSpring& spring : model_.springs) {
     if (spring.stiffness == 0.0) continue;
     const int joint = joint_at(spring.at);
     if (!spring.direction) {
-      ColumnSide* side = spring.at.member.empty() ? side_of_node(joint) : &side_at(spring.at, joint);
+      ColumnSide* side = spring.at.is_on_member() ? &side_at(spring.at, joint) : side_of_node(joint);
       if (side != nullptr) side->spring += spring.stiffness / unit;
       continue;
     }
@@ -325,7 +321,7 @@ bool LineReader::add_springs() {
 
 bool LineReader::add_foundations() {
   const double unit = line_.stiffness / (line_.length * line_.length);
-  for (const Foundation& foundation : model_.foundations) {
+  for (const ResolvedFoundation& foundation : model_.foundations) {
     if (foundation.stiffness + foundation.shear_stiffness == 0.0) continue;
     if (foundation.direction && way_of(*foundation.direction) != Way::across) return false;
     const Link& link = link_of(foundation.member);
@@ -339,7 +335,7 @@ bool LineReader::add_foundations() {
   return true;
 }
 
-bool LineReader::add_point_load(const PointLoad& load) {
+bool LineReader::add_point_load(const ResolvedPointLoad& load) {
   if (load.moment != 0.0 || !is_dead(load)) return false;
   if (load.force == Vec2{0.0, 0.0}) return true;
   if (way_of(load.force) != Way::along) return false;
@@ -348,7 +344,7 @@ bool LineReader::add_point_load(const PointLoad& load) {
   return true;
 }
 
-bool LineReader::add_strain(const InitialStrain& strain) {
+bool LineReader::add_strain(const ResolvedInitialStrain& strain) {
   if (strain.curvature != 0.0 || !strain.axial_along.empty() || !strain.curvature_along.empty()) return false;
   const Link& link = link_of(strain.member);
   for (std::size_t i = 0; i + 1 < link.cuts.size(); ++i)
@@ -357,16 +353,16 @@ bool LineReader::add_strain(const InitialStrain& strain) {
 }
 
 bool LineReader::add_loads() {
-  for (const Load& load : model_.loads) {
-    if (const auto* point = std::get_if<PointLoad>(&load)) {
+  for (const ResolvedLoad& load : model_.loads) {
+    if (const auto* point = std::get_if<ResolvedPointLoad>(&load)) {
       if (!add_point_load(*point)) return false;
-    } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
+    } else if (const auto* distributed = std::get_if<ResolvedDistributedLoad>(&load)) {
       if (distributed->force != Vec2{0.0, 0.0} || !distributed->force_along.empty()) return false;
-    } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
+    } else if (const auto* pressure = std::get_if<ResolvedPressureLoad>(&load)) {
       if (pressure->value != 0.0 || !pressure->value_along.empty()) return false;
-    } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
+    } else if (const auto* strain = std::get_if<ResolvedInitialStrain>(&load)) {
       if (!add_strain(*strain)) return false;
-    } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {
+    } else if (const auto* temperature = std::get_if<ResolvedTemperatureLoad>(&load)) {
       if (!add_strain(strain_of(model_, *temperature))) return false;
     } else if (std::get<SelfWeight>(load).gravity != Vec2{0.0, 0.0}) {
       return false;
@@ -431,8 +427,8 @@ bool LineReader::read() {
 
 }  // namespace
 
-std::optional<ColumnLine> column_line(const Model& model) {
-  const std::optional<Model> joined = with_joined_supports(model);
+std::optional<ColumnLine> column_line(const ResolvedModel& model) {
+  const std::optional<ResolvedModel> joined = with_joined_supports(model);
   LineReader reader(joined ? *joined : model);
   if (!reader.read()) return std::nullopt;
   return reader.take();

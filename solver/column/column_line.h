@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -56,7 +56,7 @@ struct ColumnLine {
 /// supports in that direction.
 /// @return empty for any other model
 /// @pre the model passed check()
-[[nodiscard]] std::optional<ColumnLine> column_line(const Model& model);
+[[nodiscard]] std::optional<ColumnLine> column_line(const ResolvedModel& model);
 
 /// @brief The column with both ends exchanged: w is kept, rotations change sign.
 [[nodiscard]] ColumnLine reversed(const ColumnLine& line);

@@ -74,9 +74,9 @@ double place_of_zero(double from, double to, const Function& value) {
 
 CapacityBalance::CapacityBalance(const FreeMotions& motions) : motions_(motions) {
   if (motions.empty()) return;
-  for (const Spring& spring : motions.joined_model().springs)
+  for (const ResolvedSpring& spring : motions.joined_model().springs)
     if (initial_stiffness(spring) > 0.0) add(spring);
-  for (const Foundation& foundation : motions.joined_model().foundations)
+  for (const ResolvedFoundation& foundation : motions.joined_model().foundations)
     if (initial_stiffness(foundation) > 0.0) add(foundation);
   add_loads();
 }
@@ -87,7 +87,7 @@ VectorXd CapacityBalance::on_motions(const RigidParts::Row& row) const {
   return out;
 }
 
-void CapacityBalance::add(const Spring& spring) {
+void CapacityBalance::add(const ResolvedSpring& spring) {
   const bool capped = has_capacity(spring);
   if (!capped && spring.reaction == Reaction::bilateral) return;  // holds its place: no motion of V moves it
   const VectorXd row = sense_of(spring.reaction) * on_motions(motions_.parts().displacement(spring));
@@ -101,11 +101,11 @@ void CapacityBalance::add(const Spring& spring) {
   (capped ? capped_ : unbounded_).push_back(std::move(out));
 }
 
-void CapacityBalance::add(const Foundation& foundation) {
+void CapacityBalance::add(const ResolvedFoundation& foundation) {
   const bool capped = has_capacity(foundation);
   if (!capped && foundation.reaction == Reaction::bilateral) return;
   const RigidParts& parts = motions_.parts();
-  const int member = parts.member(foundation.member);
+  const int member = foundation.member;
   const AxisCurve& axis = *parts.axes()[static_cast<std::size_t>(member)];
   Support out{foundation.id, foundation.reaction != Reaction::bilateral, {}, nullptr, {}, {}};
   out.row = [this, member, law = parts.law(foundation)](double fraction) {
@@ -135,7 +135,7 @@ void CapacityBalance::add_loads() {
   proportional_ = constant_;
   double constant = 0.0;
   double proportional = 0.0;
-  for (const Load& load : motions_.joined_model().loads) {
+  for (const ResolvedLoad& load : motions_.joined_model().loads) {
     const bool is_constant = pattern_of(load) == Pattern::constant;
     const LoadWork work = work_of(motions_.parts(), load);
     (is_constant ? constant_ : proportional_) += on_motions(work.row);
@@ -270,7 +270,7 @@ bool CapacityEnds::is_beyond(double factor) const {
   return limit && std::abs(factor) >= (1.0 - CapacitySearch::margin) * std::abs(limit->factor);
 }
 
-std::shared_ptr<const CapacityEnds> capacity_ends(const Model& model) {
+std::shared_ptr<const CapacityEnds> capacity_ends(const ResolvedModel& model) {
   if (!has_supports_with_capacity(model)) return nullptr;
   auto out =
       std::make_shared<CapacityEnds>(CapacityEnds{FreeMotions(model, HeldBy::without_capacity), {}, {}, {}});

@@ -64,8 +64,8 @@ class CapacityBalance {
     std::function<double(double)> capacity;      ///< per fraction of the member; empty: no bound
   };
   [[nodiscard]] Eigen::VectorXd on_motions(const RigidParts::Row& row) const;
-  void add(const Spring& spring);
-  void add(const Foundation& foundation);
+  void add(const ResolvedSpring& spring);
+  void add(const ResolvedFoundation& foundation);
   void add_loads();
   [[nodiscard]] Eigen::VectorXd reactions_on(const Support& support, const Eigen::VectorXd& motion) const;
   [[nodiscard]] Eigen::VectorXd reactions_on(const Eigen::VectorXd& motion) const;
@@ -101,6 +101,6 @@ struct CapacityEnds {
 /// @brief Limit loads of a model; null: its supports hold any load factor, or none has a capacity.
 /// @param model kept by reference
 /// @pre the model passed check()
-[[nodiscard]] std::shared_ptr<const CapacityEnds> capacity_ends(const Model& model);
+[[nodiscard]] std::shared_ptr<const CapacityEnds> capacity_ends(const ResolvedModel& model);
 
 }  // namespace snapthrough

@@ -14,10 +14,10 @@ namespace snapthrough {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-FreeMotions::FreeMotions(const Model& model, HeldBy held_by) {
+FreeMotions::FreeMotions(const ResolvedModel& model, HeldBy held_by) {
   if (is_plainly_held(model)) return;
-  if (std::optional<Model> joined = with_joined_supports(model))
-    joined_ = std::make_unique<const Model>(*std::move(joined));
+  if (std::optional<ResolvedModel> joined = with_joined_supports(model))
+    joined_ = std::make_unique<const ResolvedModel>(*std::move(joined));
   mechanism_ = std::make_unique<const RigidMechanism>(joined_ ? *joined_ : model, held_by);
   motions_.resize(mechanism_->parts().unknowns(), static_cast<Index>(mechanism_->motions().size()));
   for (Index i = 0; i < motions_.cols(); ++i)
@@ -33,6 +33,6 @@ MatrixXd FreeMotions::of_nodes() const {
   return (motions.array().abs() > Rounding::unit_component).select(motions, 0.0);
 }
 
-MatrixXd free_motions(const Model& model) { return FreeMotions(model).of_nodes(); }
+MatrixXd free_motions(const ResolvedModel& model) { return FreeMotions(model).of_nodes(); }
 
 }  // namespace snapthrough

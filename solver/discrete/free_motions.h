@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "solver/discrete/rigid_mechanism.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -17,7 +17,7 @@ class FreeMotions {
  public:
   /// @param model kept by reference
   /// @pre the model passed check()
-  explicit FreeMotions(const Model& model, HeldBy held_by = HeldBy::bilateral);
+  explicit FreeMotions(const ResolvedModel& model, HeldBy held_by = HeldBy::bilateral);
 
   [[nodiscard]] bool empty() const { return motions_.cols() == 0; }
   /// Orthonormal columns over the unknowns of parts(); at most MechanismLimits::motions.
@@ -26,7 +26,7 @@ class FreeMotions {
   [[nodiscard]] const RigidParts& parts() const { return mechanism_->parts(); }
   /// The model with opposite supports joined; its nodes, members and loads are those of the model.
   /// @pre not empty
-  [[nodiscard]] const Model& joined_model() const { return parts().model(); }
+  [[nodiscard]] const ResolvedModel& joined_model() const { return parts().model(); }
   /// @brief Node displacements (x, y over the longest member's length, rotation) of the motions: orthonormal
   /// columns with the same span; no columns when there are none.
   [[nodiscard]] Eigen::MatrixXd of_nodes() const;
@@ -38,13 +38,13 @@ class FreeMotions {
   }
 
  private:
-  std::unique_ptr<const Model> joined_;  ///< null: no supports are opposite
+  std::unique_ptr<const ResolvedModel> joined_;  ///< null: no supports are opposite
   std::unique_ptr<const RigidMechanism> mechanism_;
   Eigen::MatrixXd motions_;
 };
 
 /// @brief FreeMotions::of_nodes() of a model.
 /// @pre the model passed check()
-[[nodiscard]] Eigen::MatrixXd free_motions(const Model& model);
+[[nodiscard]] Eigen::MatrixXd free_motions(const ResolvedModel& model);
 
 }  // namespace snapthrough

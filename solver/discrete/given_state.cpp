@@ -56,7 +56,7 @@ void set_element(const Structure& structure, const MemberSplines& member, int el
 }
 
 /// Lets the stops act that the members reach; equations linear in their forces then give these.
-void set_stops(const Structure& structure, const Model& model, Eigen::VectorXd& y) {
+void set_stops(const Structure& structure, const ResolvedModel& model, Eigen::VectorXd& y) {
   const double largest = y.head(3 * static_cast<Eigen::Index>(structure.nodes)).lpNorm<Eigen::Infinity>();
   for (std::size_t i = 0; structure.stops > 0 && i < model.springs.size(); ++i) {
     const SpringLaw& law = structure.spring_laws[i];
@@ -68,7 +68,7 @@ void set_stops(const Structure& structure, const Model& model, Eigen::VectorXd& 
 
 }  // namespace
 
-Eigen::VectorXd unknowns_of(const Structure& structure, const Model& model, const StartState& state) {
+Eigen::VectorXd unknowns_of(const Structure& structure, const ResolvedModel& model, const StartState& state) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(structure.size);
   const auto shape_of = [&state](const std::string& id) -> const MemberShape& {
     const auto shape = std::find_if(state.members.begin(), state.members.end(),

@@ -6,7 +6,7 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -14,7 +14,7 @@ namespace snapthrough {
 /// @param state one shape for each member of the model, in the user's units
 /// @return scaled unknowns, near an equilibrium if the state is one of the same model
 /// @throws std::invalid_argument when two places of a member coincide
-[[nodiscard]] Eigen::VectorXd unknowns_of(const Structure& structure, const Model& model,
+[[nodiscard]] Eigen::VectorXd unknowns_of(const Structure& structure, const ResolvedModel& model,
                                           const StartState& state);
 
 }  // namespace snapthrough

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "solver/model/id_index.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/lanes.h"
 #include "solver/numeric/max_order.h"
@@ -23,15 +22,15 @@ namespace {
 
 using Eigen::Index;
 
-const Section& section_on(const Model& model, int member) {
-  return model.sections[index_of(model.sections, model.members[member].section)];
+const Section& section_on(const ResolvedModel& model, int member) {
+  return model.sections[model.members[member].section];
 }
 
 /// Place on a member for a node: the end of a member that turns with the node, if there is one.
-std::pair<int, double> place_at_node(const Model& model, const std::string& node) {
+std::pair<int, double> place_at_node(const ResolvedModel& model, int node) {
   std::pair<int, double> out{-1, 0.0};
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const Member& member = model.members[m];
+    const ResolvedMember& member = model.members[m];
     for (const bool at_start : {true, false}) {
       if ((at_start ? member.start : member.end) != node) continue;
       const bool turns = !(at_start ? member.release_start_rotation : member.release_end_rotation);
@@ -51,7 +50,7 @@ MassPlace place_at(const CollocationRule& rule, double xi, double mass, double r
 }
 
 /// Collects the places of each element, in the model's units of mass and the scaled unit of length.
-std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, const Model& model) {
+std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, const ResolvedModel& model) {
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const Quadrature gauss = gauss_legendre(rule.order() + 1);
   const double unit = structure.scales.length;
@@ -69,10 +68,9 @@ std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, c
       if (mass != 0.0 || rotary != 0.0) out[e].push_back(place_at(rule, gauss.points[q], mass, rotary));
     }
   }
-  for (const PointMass& point : model.masses) {
-    const auto [member, fraction] =
-        point.at.member.empty() ? place_at_node(model, point.at.node)
-                                : std::pair{index_of(model.members, point.at.member), point.at.fraction};
+  for (const ResolvedPointMass& point : model.masses) {
+    const auto [member, fraction] = point.at.is_on_member() ? std::pair{point.at.member, point.at.fraction}
+                                                            : place_at_node(model, point.at.node);
     if (member < 0) continue;
     const MeshPlace place = place_of(structure.mesh, member, fraction);
     out[static_cast<std::size_t>(place.element)].push_back(
@@ -121,17 +119,14 @@ void add_forces(const Eigen::MatrixXd& block, Index a, Index v,
   }
 }
 
-bool is_heavy(const Section& section) { return section.mass && section.mass->largest() > 0.0; }
-
 /// Motions of heavy places that supports leave free.
-Index free_motions_of_places(const Structure& structure, const Model& model) {
-  std::set<std::tuple<std::string, std::string, double, int>> motions;  // a place and a component
-  for (const PointMass& point : model.masses) {
+Index free_motions_of_places(const Structure& structure, const ResolvedModel& model) {
+  std::set<std::tuple<int, int, double, int>> motions;  // a place and a component
+  for (const ResolvedPointMass& point : model.masses) {
     for (int c = 0; c < 3; ++c) {
       const bool moves = (c < 2 ? point.mass : point.inertia) > 0.0;
       const bool is_fixed =
-          !point.at.node.empty() &&
-          structure.supports[static_cast<std::size_t>(index_of(model.nodes, point.at.node))].fixed[c];
+          !point.at.is_on_member() && structure.supports[static_cast<std::size_t>(point.at.node)].fixed[c];
       if (moves && !is_fixed) motions.emplace(point.at.node, point.at.member, point.at.fraction, c);
     }
   }
@@ -140,13 +135,9 @@ Index free_motions_of_places(const Structure& structure, const Model& model) {
 
 }  // namespace
 
-bool has_mass(const Model& model) {
-  return std::any_of(model.sections.begin(), model.sections.end(), is_heavy) ||
-         std::any_of(model.masses.begin(), model.masses.end(),
-                     [](const PointMass& point) { return point.mass > 0.0 || point.inertia > 0.0; });
-}
+bool is_heavy(const Section& section) { return section.mass && section.mass->largest() > 0.0; }
 
-MassMatrix make_mass_matrix(const Structure& structure, const Model& model) {
+MassMatrix make_mass_matrix(const Structure& structure, const ResolvedModel& model) {
   const std::vector<std::vector<MassPlace>> places = collect_places(structure, model);
   MassMatrix out;
   double total = 0.0;

@@ -3,11 +3,12 @@
 /// Masses of a structure on its mesh.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "solver/discrete/structure.h"
 #include "solver/element/element_masses.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -29,14 +30,23 @@ struct MassMatrix {
   Eigen::Index rank = 0;
 };
 
+/// Whether a section has a mass per length that is not zero.
+[[nodiscard]] bool is_heavy(const Section& section);
+
 /// Whether any section or place has a mass that is not zero.
-[[nodiscard]] bool has_mass(const Model& model);
+/// @param model a Model or a ResolvedModel
+template <class AnyModel>
+[[nodiscard]] bool has_mass(const AnyModel& model) {
+  const auto point = [](const PointMass& one) { return one.mass > 0.0 || one.inertia > 0.0; };
+  return std::any_of(model.sections.begin(), model.sections.end(), is_heavy) ||
+         std::any_of(model.masses.begin(), model.masses.end(), point);
+}
 
 /// @brief Masses of sections, integrated over the elements exactly for sections that do not taper, and point
 /// masses.
 /// @param model model of the structure
 /// @pre has_mass(model)
-[[nodiscard]] MassMatrix make_mass_matrix(const Structure& structure, const Model& model);
+[[nodiscard]] MassMatrix make_mass_matrix(const Structure& structure, const ResolvedModel& model);
 
 /// @brief M times each column of `motions`: forces on the unknowns of the elements, in global axes.
 [[nodiscard]] Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,

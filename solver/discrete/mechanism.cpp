@@ -12,8 +12,6 @@
 #include <variant>
 
 #include "solver/discrete/rigid_mechanism.h"
-#include "solver/model/id_index.h"
-#include "solver/support/rods.h"
 
 namespace snapthrough {
 namespace {
@@ -27,9 +25,9 @@ struct PlainlyHeldLimits {
 };
 
 /// Length of a straight member or an arc; empty for other curves.
-std::optional<double> length_of(const Model& model, const Member& member) {
-  const Node& a = model.nodes[index_of(model.nodes, member.start)];
-  const Node& b = model.nodes[index_of(model.nodes, member.end)];
+std::optional<double> length_of(const ResolvedModel& model, const ResolvedMember& member) {
+  const Node& a = model.nodes[member.start];
+  const Node& b = model.nodes[member.end];
   const double chord = std::hypot(b.x - a.x, b.y - a.y);
   if (std::holds_alternative<LineCurve>(member.curve)) return chord;
   const auto* arc = std::get_if<ArcCurve>(&member.curve);
@@ -38,12 +36,12 @@ std::optional<double> length_of(const Model& model, const Member& member) {
   return chord * half / std::sin(half);
 }
 
-bool is_connected(const Model& model) {
+bool is_connected(const ResolvedModel& model) {
   std::vector<std::size_t> group(model.nodes.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
-  for (const Member& member : model.members) {
-    const std::size_t one = group[index_of(model.nodes, member.start)];
-    const std::size_t other = group[index_of(model.nodes, member.end)];
+  for (const ResolvedMember& member : model.members) {
+    const std::size_t one = group[member.start];
+    const std::size_t other = group[member.end];
     std::replace(group.begin(), group.end(), one, other);
   }
   return std::all_of(group.begin(), group.end(), [&](std::size_t g) { return g == group.front(); });
@@ -51,11 +49,11 @@ bool is_connected(const Model& model) {
 
 /// Restraint of a rigid body by the supports: det of the sum of r r^T over the constrained directions r
 /// (force, force, moment over unit length), divided by that for equal eigenvalues.
-double firmness(const Model& model, double length) {
+double firmness(const ResolvedModel& model, double length) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   const Node& origin = model.nodes.front();
-  for (const Support& support : model.supports) {
-    const Node& node = model.nodes[index_of(model.nodes, support.node)];
+  for (const ResolvedSupport& support : model.supports) {
+    const Node& node = model.nodes[support.node];
     const double angle = support.angle_degrees * std::numbers::pi / 180.0;
     const auto hold = [&](double dx, double dy) {
       const double moment = ((node.x - origin.x) * dy - (node.y - origin.y) * dx) / length;
@@ -72,14 +70,14 @@ double firmness(const Model& model, double length) {
 
 }  // namespace
 
-bool is_plainly_held(const Model& model) {
+bool is_plainly_held(const ResolvedModel& model) {
   if (model.members.size() > PlainlyHeldLimits::members || model.supports.empty()) return false;
   double length = 0.0;
   double least_EI = std::numeric_limits<double>::infinity();
   double largest_EI = 0.0;
   double least_force = least_EI;
-  for (const Member& member : model.members) {
-    const Section& section = model.sections[index_of(model.sections, member.section)];
+  for (const ResolvedMember& member : model.members) {
+    const Section& section = model.sections[member.section];
     const std::optional<double> own = length_of(model, member);
     if (!own || is_rod(member) || member.release_start_rotation || member.release_end_rotation) return false;
     length = std::max(length, *own);
@@ -92,15 +90,12 @@ bool is_plainly_held(const Model& model) {
          is_connected(model) && firmness(model, length) >= PlainlyHeldLimits::restraint;
 }
 
-bool can_move(const Model& model) {
-  const std::optional<Model> acting = with_rods_as_springs(model);
-  return !RigidMechanism(acting ? *acting : model, HeldBy::all_as_bilateral).motions().empty();
+bool can_move(const ResolvedModel& model) {
+  return !RigidMechanism(model, HeldBy::all_as_bilateral).motions().empty();
 }
 
-std::vector<Finding> find_mechanism(const Model& given) {
-  if (is_plainly_held(given)) return {};
-  const std::optional<Model> acting = with_rods_as_springs(given);
-  const Model& model = acting ? *acting : given;
+std::vector<Finding> find_mechanism(const ResolvedModel& model) {
+  if (is_plainly_held(model)) return {};
   const RigidMechanism mechanism(model, HeldBy::all_as_bilateral);
   if (mechanism.unknown())
     return {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/model/finding.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -15,17 +15,17 @@ namespace snapthrough {
 /// Motions without work are allowed: the analysis pins them and reports them (Result::neutral_motion).
 /// @return one finding with code "mechanism", or "too_connected" if the test would take too long; else empty
 /// @pre the model passed all other checks
-[[nodiscard]] std::vector<Finding> find_mechanism(const Model& model);
+[[nodiscard]] std::vector<Finding> find_mechanism(const ResolvedModel& model);
 
 /// @brief Whether the unloaded structure, with one-sided supports as bilateral, can move without strain.
 /// @pre the model passed all other checks
-[[nodiscard]] bool can_move(const Model& model);
+[[nodiscard]] bool can_move(const ResolvedModel& model);
 
 /// @brief Fast sufficient test that find_mechanism() finds nothing: at most ten connected straight members
 /// and arcs of comparable stiffness, without releases, whose rigid supports fix a rigid body with good
 /// leverage.
 /// @return false when the test is inconclusive
 /// @pre the model passed all other checks
-[[nodiscard]] bool is_plainly_held(const Model& model);
+[[nodiscard]] bool is_plainly_held(const ResolvedModel& model);
 
 }  // namespace snapthrough

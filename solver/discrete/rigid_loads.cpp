@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <variant>
 
-#include "solver/model/member_loads.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/resolve/member_loads.h"
 
 namespace snapthrough {
 namespace {
 
 /// Varying pressure as a load across the undeformed axis.
-DistributedLoad across(const PressureLoad& load) {
-  DistributedLoad out;
+ResolvedDistributedLoad across(const ResolvedPressureLoad& load) {
+  ResolvedDistributedLoad out;
   out.member = load.member;
   out.axes = LoadAxes::member;
   const double sense = load.side == Side::left ? -1.0 : 1.0;
@@ -27,15 +27,16 @@ class Summing {
  public:
   explicit Summing(const RigidParts& parts) : parts_(parts) {}
 
-  void add(const PointLoad& load);
-  void add(const DistributedLoad& load) { add(line_load(load)); }
+  void add(const ResolvedPointLoad& load);
+  void add(const ResolvedDistributedLoad& load) { add(line_load(load)); }
   void add(const LineLoad& load);
-  void add(const PressureLoad& load);
-  void add(const InitialStrain&) {}
+  void add(const ResolvedPressureLoad& load);
+  void add(const ResolvedInitialStrain&) {}
   void add(const SelfWeight& load) {
-    for (const Member& member : parts_.model().members) add(weight_of(parts_.model(), member, load));
+    for (std::size_t m = 0; m < parts_.model().members.size(); ++m)
+      add(weight_of(parts_.model(), static_cast<int>(m), load));
   }
-  void add(const TemperatureLoad&) {}
+  void add(const ResolvedTemperatureLoad&) {}
   LoadWork work;
 
  private:
@@ -51,23 +52,23 @@ class Summing {
   const RigidParts& parts_;
 };
 
-void Summing::add(const PointLoad& load) {
+void Summing::add(const ResolvedPointLoad& load) {
   const double moment = load.moment / parts_.length();
-  if (!load.at.node.empty()) {
-    const int node = parts_.node(load.at.node);
+  if (!load.at.is_on_member()) {
+    const int node = load.at.node;
     add(parts_.displacement(node, {1.0, 0.0}), load.force[0]);
     add(parts_.displacement(node, {0.0, 1.0}), load.force[1]);
     add(parts_.node_rotation(node), moment);
     return;
   }
-  const int member = parts_.member(load.at.member);
+  const int member = load.at.member;
   const AxisPoint at = parts_.place(member, load.at.fraction);
   add(member, {at.x, at.y}, load.force[0], load.force[1]);
   add(parts_.rotation(member), moment);
 }
 
 void Summing::add(const LineLoad& load) {
-  const int member = parts_.member(load.member);
+  const int member = load.member;
   const AxisCurve& axis = *parts_.axes()[static_cast<std::size_t>(member)];
   const bool is_linear = std::all_of(load.pieces.begin(), load.pieces.end(),
                                      [](const LinePiece& piece) { return piece.power == 1.0; });
@@ -91,12 +92,12 @@ void Summing::add(const LineLoad& load) {
 /// Replaces a constant pressure by pressure on the chord: with the right normal n = (t_y, -t_x), int n ds is
 /// the chord turned by -90 degrees, and the moment about the start is int (x - x_a) x n ds = -|x_b - x_a|^2
 /// / 2.
-void Summing::add(const PressureLoad& load) {
+void Summing::add(const ResolvedPressureLoad& load) {
   if (!load.value_along.empty()) {
     add(across(load));
     return;
   }
-  const int member = parts_.member(load.member);
+  const int member = load.member;
   const AxisPoint a = parts_.place(member, 0.0);
   const AxisPoint b = parts_.place(member, 1.0);
   const double force = (load.side == Side::left ? 1.0 : -1.0) * load.value * parts_.length();
@@ -105,11 +106,11 @@ void Summing::add(const PressureLoad& load) {
 
 }  // namespace
 
-Pattern pattern_of(const Load& load) {
+Pattern pattern_of(const ResolvedLoad& load) {
   return std::visit([](const auto& l) { return l.pattern; }, load);
 }
 
-LoadWork work_of(const RigidParts& parts, const Load& load) {
+LoadWork work_of(const RigidParts& parts, const ResolvedLoad& load) {
   Summing sum(parts);
   std::visit([&sum](const auto& l) { sum.add(l); }, load);
   return std::move(sum.work);
@@ -117,7 +118,7 @@ LoadWork work_of(const RigidParts& parts, const Load& load) {
 
 RigidLoads::RigidLoads(const RigidParts& parts, Pattern pattern)
     : forces_(Eigen::VectorXd::Zero(parts.unknowns())) {
-  for (const Load& load : parts.model().loads) {
+  for (const ResolvedLoad& load : parts.model().loads) {
     if (pattern_of(load) != pattern) continue;
     const LoadWork work = work_of(parts, load);
     size_ += work.size;

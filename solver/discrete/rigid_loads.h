@@ -5,12 +5,12 @@
 #include <Eigen/Core>
 
 #include "solver/discrete/rigid_parts.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
 /// Pattern of a load.
-[[nodiscard]] Pattern pattern_of(const Load& load);
+[[nodiscard]] Pattern pattern_of(const ResolvedLoad& load);
 
 /// Work of a load as a linear functional of the rigid parts' unknowns, on the undeformed geometry.
 struct LoadWork {
@@ -20,7 +20,7 @@ struct LoadWork {
 };
 
 /// @brief Work of one load at its full size. Initial strains do no work.
-[[nodiscard]] LoadWork work_of(const RigidParts& parts, const Load& load);
+[[nodiscard]] LoadWork work_of(const RigidParts& parts, const ResolvedLoad& load);
 
 /// @brief Forces of all loads of one pattern on the rigid parts' unknowns. Prescribed displacements count as
 /// fixed and exert none.

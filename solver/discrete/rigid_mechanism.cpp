@@ -22,10 +22,10 @@ using Row = RigidParts::Row;
 class Holding {
  public:
   Holding(const RigidParts& parts, HeldBy held_by) : parts_(parts), held_by_(held_by) {
-    for (const Support& support : parts.model().supports) add(support);
-    for (const Spring& spring : parts.model().springs)
+    for (const ResolvedSupport& support : parts.model().supports) add(support);
+    for (const ResolvedSpring& spring : parts.model().springs)
       if (is_there(spring)) add(spring);
-    for (const Foundation& foundation : parts.model().foundations)
+    for (const ResolvedFoundation& foundation : parts.model().foundations)
       if (is_there(foundation)) add(foundation);
   }
 
@@ -45,9 +45,9 @@ class Holding {
   [[nodiscard]] bool gives_way(const Support& support) const {
     return held_by_ == HeldBy::without_capacity && has_capacity(support);
   }
-  void add(const Support& support);
-  void add(const Spring& spring);
-  void add(const Foundation& foundation);
+  void add(const ResolvedSupport& support);
+  void add(const ResolvedSpring& spring);
+  void add(const ResolvedFoundation& foundation);
   void hold(const Row& rotation, double radius);
   void hold(int node, double x, double y);
   void hold(int member, RigidParts::Point at, double x, double y);
@@ -75,20 +75,20 @@ void Holding::hold(int member, RigidParts::Point at, double x, double y) {
   moved.push_back(parts_.displacement(member, at, {0.0, 1.0}));
 }
 
-void Holding::add(const Support& support) {
-  const int node = parts_.node(support.node);
+void Holding::add(const ResolvedSupport& support) {
+  const int node = support.node;
   const double angle = support.angle_degrees * std::numbers::pi / 180.0;
   if (support.x) hold(node, std::cos(angle), std::sin(angle));
   if (support.y) hold(node, -std::sin(angle), std::cos(angle));
   if (support.rotation) hold(parts_.node_rotation(node), parts_.node_radius(node));
 }
 
-void Holding::add(const Spring& spring) {
+void Holding::add(const ResolvedSpring& spring) {
   if (gives_way(spring)) return;
-  const Location& at = spring.at;
+  const ResolvedLocation& at = spring.at;
   if (!spring.direction) {
-    hold(parts_.displacement(spring), at.member.empty() ? parts_.node_radius(parts_.node(at.node))
-                                                        : parts_.radius(parts_.member(at.member)));
+    hold(parts_.displacement(spring),
+         at.is_on_member() ? parts_.radius(at.member) : parts_.node_radius(at.node));
     return;
   }
   held.push_back(parts_.displacement(spring));
@@ -101,8 +101,8 @@ void Holding::add(const Spring& spring) {
 /// Adds the constraints of a foundation at points of its range; two points suffice on a straight axis. A
 /// surface constrains motions along its normals as seen from the initial axis. The
 /// shear layer constrains the derivative of the displacement n.u along the axis: n'.u and the rotation of n.
-void Holding::add(const Foundation& foundation) {
-  const int member = parts_.member(foundation.member);
+void Holding::add(const ResolvedFoundation& foundation) {
+  const int member = foundation.member;
   const bool straight = parts_.axes()[static_cast<std::size_t>(member)]->straight();
   const bool is_uniform = straight && !foundation.outline;
   const Quadrature points = gauss_legendre(is_uniform ? 2 : MechanismLimits::places_on_curve);
@@ -125,7 +125,7 @@ void Holding::add(const Foundation& foundation) {
 
 }  // namespace
 
-RigidMechanism::RigidMechanism(const Model& model, HeldBy held_by) : parts_(model) {
+RigidMechanism::RigidMechanism(const ResolvedModel& model, HeldBy held_by) : parts_(model) {
   Holding holding(parts_, held_by);
   std::vector<Row> rows = parts_.joints();
   rows.insert(rows.end(), holding.held.begin(), holding.held.end());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solver/discrete/rigid_parts.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -33,7 +33,7 @@ enum class HeldBy {
 class RigidMechanism {
  public:
   /// @param model kept by reference
-  RigidMechanism(const Model& model, HeldBy held_by);
+  RigidMechanism(const ResolvedModel& model, HeldBy held_by);
 
   [[nodiscard]] const RigidParts& parts() const { return parts_; }
   /// Orthonormal vectors over the rigid parts' unknowns.

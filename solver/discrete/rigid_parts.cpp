@@ -25,14 +25,12 @@ void append(RigidParts::Row& row, const RigidParts::Row& other, double factor) {
 
 }  // namespace
 
-RigidParts::RigidParts(const Model& model)
-    : model_(model), node_index_(model.nodes), member_index_(model.members), axes_(make_axes(model)) {
+RigidParts::RigidParts(const ResolvedModel& model) : model_(model), axes_(make_axes(model)) {
   for (const auto& axis : axes_) length_ = std::max(length_, axis->length());
   const Node& origin = model.nodes.front();
   for (const Node& node : model.nodes)
     nodes_.push_back({(node.x - origin.x) / length_, (node.y - origin.y) / length_});
-  for (const Member& member : model.members)
-    ends_.push_back({node_index_.of(member.start), node_index_.of(member.end)});
+  for (const ResolvedMember& member : model.members) ends_.push_back({member.start, member.end});
   find_bodies();
   place_bodies();
   number_nodes();
@@ -44,7 +42,7 @@ void RigidParts::find_bodies() {
   std::iota(parent.begin(), parent.end(), 0);
   std::vector<char> turned(nodes_.size(), 0);  // true: some member is not released there
   for (std::size_t m = 0; m < ends_.size(); ++m) {
-    const Member& member = model_.members[m];
+    const ResolvedMember& member = model_.members[m];
     if (!is_hinged_at_start(member)) turned[ends_[m][0]] = 1;
     if (!is_hinged_at_end(member)) turned[ends_[m][1]] = 1;
     if (!is_hinged_at_start(member) && !is_hinged_at_end(member))
@@ -62,7 +60,7 @@ void RigidParts::find_bodies() {
     turns_with_[n] = body;
   }
   for (std::size_t m = 0; m < ends_.size(); ++m) {
-    const Member& member = model_.members[m];
+    const ResolvedMember& member = model_.members[m];
     body_of_member_.push_back(!is_hinged_at_start(member) ? turns_with_[ends_[m][0]]
                               : !is_hinged_at_end(member) ? turns_with_[ends_[m][1]]
                                                           : -1);
@@ -142,17 +140,16 @@ RigidParts::Row RigidParts::displacement(int member, Point at, Point direction) 
   return row;
 }
 
-RigidParts::Row RigidParts::displacement(const Location& at, Point direction) const {
-  if (at.member.empty()) return displacement(node(at.node), direction);
-  const int index = member(at.member);
+RigidParts::Row RigidParts::displacement(const ResolvedLocation& at, Point direction) const {
+  if (!at.is_on_member()) return displacement(at.node, direction);
+  const int index = at.member;
   const AxisPoint point = place(index, at.fraction);
   return displacement(index, {point.x, point.y}, direction);
 }
 
-RigidParts::Row RigidParts::displacement(const Spring& spring) const {
-  const auto of = [&](const Location& at) {
-    if (!spring.direction)
-      return at.member.empty() ? node_rotation(node(at.node)) : rotation(member(at.member));
+RigidParts::Row RigidParts::displacement(const ResolvedSpring& spring) const {
+  const auto of = [&](const ResolvedLocation& at) {
+    if (!spring.direction) return at.is_on_member() ? rotation(at.member) : node_rotation(at.node);
     return displacement(at, fixed_direction(*spring.direction, 1.0).fixed);
   };
   Row row = of(spring.at);

@@ -11,9 +11,8 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/mesh/mesh.h"
-#include "solver/model/id_index.h"
-#include "solver/model/model.h"
 #include "solver/model/scales.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -31,17 +30,15 @@ class RigidParts {
   using Point = std::array<double, 2>;
 
   /// @param model kept by reference
-  explicit RigidParts(const Model& model);
+  explicit RigidParts(const ResolvedModel& model);
 
   [[nodiscard]] int unknowns() const { return unknowns_; }
-  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const ResolvedModel& model() const { return model_; }
   [[nodiscard]] double length() const { return length_; }
-  [[nodiscard]] int node(const std::string& id) const { return node_index_.of(id); }
-  [[nodiscard]] int member(const std::string& id) const { return member_index_.of(id); }
   [[nodiscard]] const Axes& axes() const { return axes_; }
   [[nodiscard]] Point place(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
   /// Law of a foundation in the coordinates of these parts; its forces are not scaled.
-  [[nodiscard]] FoundationLaw law(const Foundation& foundation) const {
+  [[nodiscard]] FoundationLaw law(const ResolvedFoundation& foundation) const {
     Scales scales;
     scales.length = length_;
     return law_of(foundation, scales, {model_.nodes.front().x, model_.nodes.front().y});
@@ -54,10 +51,10 @@ class RigidParts {
   /// Displacement, in a direction, of a point that moves with a member.
   [[nodiscard]] Row displacement(int member, Point at, Point direction) const;
   /// Displacement of a location in a direction.
-  [[nodiscard]] Row displacement(const Location& at, Point direction) const;
+  [[nodiscard]] Row displacement(const ResolvedLocation& at, Point direction) const;
   /// Displacement of a spring along its direction, or its rotation; relative to the node `to` where it is
   /// given.
-  [[nodiscard]] Row displacement(const Spring& spring) const;
+  [[nodiscard]] Row displacement(const ResolvedSpring& spring) const;
   /// Rotation of a member.
   [[nodiscard]] Row rotation(int member) const;
   /// Rotation of a node; empty when all members are released there.
@@ -89,9 +86,7 @@ class RigidParts {
   [[nodiscard]] Row of_body(int body, Point at, Point direction) const;
   [[nodiscard]] Bar bar(int member) const;
 
-  const Model& model_;
-  IdIndex node_index_;
-  IdIndex member_index_;
+  const ResolvedModel& model_;
   Axes axes_;
   double length_ = 0.0;
   int unknowns_ = 0;

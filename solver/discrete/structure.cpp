@@ -14,11 +14,10 @@
 #include "solver/discrete/structure_laws.h"
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
-#include "solver/model/id_index.h"
-#include "solver/model/member_loads.h"
 #include "solver/numeric/max_order.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
+#include "solver/resolve/member_loads.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -36,7 +35,7 @@ double largest_of(double constant, const Along<double>& along) {
 /// A structure with the same scales, whose parts are taken over where they do not differ, and its model.
 struct Neighbour {
   const Structure& structure;
-  const Model& model;
+  const ResolvedModel& model;
 };
 
 /// Builds a Structure stage by stage; one object per structure.
@@ -44,7 +43,7 @@ class Builder {
  public:
   /// @param laws model with opposite supports joined, for the equations
   /// @param like null, or a structure with the same mesh and axes
-  Builder(const Model& model, const Model& laws, const Neighbour* like, Structure& out)
+  Builder(const ResolvedModel& model, const ResolvedModel& laws, const Neighbour* like, Structure& out)
       : model_(model), laws_(laws), like_(like), out_(out) {}
   Builder(const Builder&) = delete;
 
@@ -76,7 +75,7 @@ class Builder {
     std::vector<std::size_t> springs;
   };
   void find_supports();
-  void add_foundations(const std::vector<Foundation>& foundations, std::vector<int> Here::*list);
+  void add_foundations(const std::vector<ResolvedFoundation>& foundations, std::vector<int> Here::*list);
   void add_element_supports(int element);
   void add_foundation(int element, int index);
   void add_foundation_law(int element, int index);
@@ -92,17 +91,17 @@ class Builder {
   [[nodiscard]] Eigen::VectorXd& pattern(Pattern p) {
     return p == Pattern::proportional ? out_.proportional_load : out_.constant_load;
   }
-  void add_pressure(const PressureLoad& load);
-  void add_initial_strain(const InitialStrain& load);
-  void add_dead_load(const Load& load);
+  void add_pressure(const ResolvedPressureLoad& load);
+  void add_initial_strain(const ResolvedInitialStrain& load);
+  void add_dead_load(const ResolvedLoad& load);
   [[nodiscard]] double size_of_loads() const;
   void scale_other_actions();
   void find_follower_ends(double load_scale);
   void add_follower_changes(const ElementPressure& pressure, double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
-  const Model& model_;
-  const Model& laws_;
+  const ResolvedModel& model_;
+  const ResolvedModel& laws_;
   const Neighbour* like_;
   Structure& out_;
   std::vector<Here> here_;                      ///< one per element
@@ -113,10 +112,11 @@ class Builder {
   double strain_size_ = 0.0;  ///< magnitude of the forces that the proportional initial strains correspond to
 };
 
-ElementShape shape_on(const Structure& out, const Model& model, int element, const StressFreeAxis& axis) {
+ElementShape shape_on(const Structure& out, const ResolvedModel& model, int element,
+                      const StressFreeAxis& axis) {
   const MeshElement& e = out.mesh.elements[element];
   const CollocationRule& rule = CollocationRule::of(out.mesh.order);
-  const Section& section = model.sections[index_of(model.sections, model.members[e.member].section)];
+  const Section& section = model.sections[model.members[e.member].section];
   const double length = axis.perfect().length();
   const double L = out.scales.length;
   const double F = out.scales.force;
@@ -151,8 +151,8 @@ void Builder::set_scales(const Scales* known) {
   double length = 0.0;
   double bending = 0.0;
   for (const auto& axis : out_.axes) length = std::max(length, axis->length());
-  for (const Member& member : model_.members)
-    bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI.largest());
+  for (const ResolvedMember& member : model_.members)
+    bending = std::max(bending, model_.sections[member.section].EI.largest());
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
@@ -183,15 +183,13 @@ void Builder::number_unknowns() {
   out_.dofs.reserve(mesh.elements.size());
   int next = 3 * out_.nodes;
   std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
-  const auto release = [&](bool is_released, const std::string& node, double stiffness, int& end) {
+  const auto release = [&](bool is_released, int node, double stiffness, int& end) {
     if (!is_released) return;
     end = next++;
-    if (stiffness > 0.0)
-      out_.joints.push_back(
-          {3 * index_of(model_.nodes, node) + 2, end, out_.scales.scaled_rotational(stiffness)});
+    if (stiffness > 0.0) out_.joints.push_back({3 * node + 2, end, out_.scales.scaled_rotational(stiffness)});
   };
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const Member& member = model_.members[m];
+    const ResolvedMember& member = model_.members[m];
     release(member.release_start_rotation, member.start, member.release_start_stiffness, released[m][0]);
     release(member.release_end_rotation, member.end, member.release_end_stiffness, released[m][1]);
   }
@@ -202,8 +200,8 @@ void Builder::number_unknowns() {
   const auto first_stop = out_.stop_elements.begin();
   auto next_stop = first_stop;
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const int start = index_of(model_.nodes, model_.members[m].start);
-    const int end = index_of(model_.nodes, model_.members[m].end);
+    const int start = model_.members[m].start;
+    const int end = model_.members[m].end;
     std::array<int, 3> a{3 * start, 3 * start + 1, released[m][0] >= 0 ? released[m][0] : 3 * start + 2};
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       ElementDofs dofs;
@@ -262,7 +260,7 @@ FoundationContact Builder::make_contact(int element, const FoundationLaw& founda
 
 /// Adds the part of a foundation on an element, for results.
 void Builder::add_foundation(int element, int index) {
-  const Foundation& foundation = model_.foundations[index];
+  const ResolvedFoundation& foundation = model_.foundations[index];
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
   out_.parts_of_foundation[static_cast<std::size_t>(index)].push_back(
@@ -274,7 +272,7 @@ void Builder::add_foundation(int element, int index) {
 
 /// Adds a foundation on an element to the equations.
 void Builder::add_foundation_law(int element, int index) {
-  const Foundation& foundation = laws_.foundations[index];
+  const ResolvedFoundation& foundation = laws_.foundations[index];
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
   const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
@@ -292,7 +290,7 @@ void Builder::add_foundation_law(int element, int index) {
 
 /// Adds a one-sided foundation on an element, split into ranges with and without a known touching state.
 void Builder::add_contacts(int element, int index) {
-  const Foundation& foundation = laws_.foundations[index];
+  const ResolvedFoundation& foundation = laws_.foundations[index];
   const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
   const auto add = [&](std::array<double, 2> fractions, Touch touch) {
     const auto range = part_of(out_.mesh.elements[element], fractions);
@@ -315,7 +313,7 @@ Touch Builder::touch_of_spring(std::size_t index) const {
 }
 
 void Builder::add_point_spring(int element, std::size_t index) {
-  const Spring& spring = laws_.springs[index];
+  const ResolvedSpring& spring = laws_.springs[index];
   const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
   if (initial_stiffness(spring) == 0.0) return;
   const SpringLaw& law = spring_laws_[index];
@@ -328,9 +326,10 @@ void Builder::add_point_spring(int element, std::size_t index) {
 }
 
 /// Adds the indices of foundations to the elements on which they lie.
-void Builder::add_foundations(const std::vector<Foundation>& foundations, std::vector<int> Here::*list) {
+void Builder::add_foundations(const std::vector<ResolvedFoundation>& foundations,
+                              std::vector<int> Here::*list) {
   for (std::size_t i = 0; i < foundations.size(); ++i) {
-    const int member = index_of(model_.members, foundations[i].member);
+    const int member = foundations[i].member;
     const int last = place_of(out_.mesh, member, foundations[i].range[1]).element;
     for (int e = place_of(out_.mesh, member, foundations[i].range[0]).element; e <= last; ++e)
       (here_[static_cast<std::size_t>(e)].*list).push_back(static_cast<int>(i));
@@ -343,9 +342,9 @@ void Builder::find_supports() {
   add_foundations(model_.foundations, &Here::foundations);
   add_foundations(laws_.foundations, &Here::laws);
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
-    const Location& at = laws_.springs[i].at;
-    if (at.member.empty() || spring_laws_[i].give > 0.0) continue;
-    const MeshPlace place = place_of(out_.mesh, index_of(model_.members, at.member), at.fraction);
+    const ResolvedLocation& at = laws_.springs[i].at;
+    if (!at.is_on_member() || spring_laws_[i].give > 0.0) continue;
+    const MeshPlace place = place_of(out_.mesh, at.member, at.fraction);
     here_[static_cast<std::size_t>(place.element)].springs.push_back(i);
   }
 }
@@ -358,9 +357,9 @@ void Builder::add_element_supports(int element) {
 }
 
 /// Section of an element.
-const Section& section_of(const Model& model, const Mesh& mesh, int element) {
-  const Member& member = model.members[mesh.elements[static_cast<std::size_t>(element)].member];
-  return model.sections[index_of(model.sections, member.section)];
+const Section& section_of(const ResolvedModel& model, const Mesh& mesh, int element) {
+  const ResolvedMember& member = model.members[mesh.elements[static_cast<std::size_t>(element)].member];
+  return model.sections[member.section];
 }
 
 void Builder::add_shape(int element) {
@@ -409,8 +408,8 @@ void Builder::add_supports() {
     const Vec3 value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y), d.rotation};
     (d.pattern == Pattern::proportional ? node.proportional : node.constant) = value;
   };
-  for (const Support& support : model_.supports) {
-    NodeSupport& node = out_.supports[index_of(model_.nodes, support.node)];
+  for (const ResolvedSupport& support : model_.supports) {
+    NodeSupport& node = out_.supports[support.node];
     node.fixed = {support.x, support.y, support.rotation};
     node.angle = support.angle_degrees * std::numbers::pi / 180.0;
     if (support.displacement) prescribe(node, *support.displacement);
@@ -422,11 +421,11 @@ void Builder::add_supports() {
     prescribe(node, displacement);
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
-    const Spring& spring = laws_.springs[i];
+    const ResolvedSpring& spring = laws_.springs[i];
     const bool stops = spring_laws_[i].give > 0.0;
-    if ((!stops && spring.at.node.empty()) || initial_stiffness(spring) == 0.0) continue;
-    const int node = stops ? node_of_stop(out_, model_, spring) : index_of(model_.nodes, spring.at.node);
-    int to = spring.to ? index_of(model_.nodes, spring.to->node) : -1;
+    if ((!stops && spring.at.is_on_member()) || initial_stiffness(spring) == 0.0) continue;
+    const int node = stops ? node_of_stop(out_, model_, spring) : spring.at.node;
+    int to = spring.to ? spring.to->node : -1;
     if (spring_laws_[i].ground >= 0) to = spring_laws_[i].ground / 3;
     NodeSpring& js = out_.node_springs.emplace_back(node_spring(spring_laws_[i], node, to));
     js.touch = touch_of_spring(i);
@@ -445,7 +444,7 @@ void Builder::add_point_action(Eigen::VectorXd& load, int element, double xi, Ve
 }
 
 void Builder::add_line_load(const LineLoad& load) {
-  const int member = index_of(model_.members, load.member);
+  const int member = load.member;
   const AxisCurve& axis = *out_.axes[member];
   const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
   for (const LinePiece& piece : load.pieces) {
@@ -467,56 +466,56 @@ void Builder::add_line_load(const LineLoad& load) {
   }
 }
 
-void Builder::add_dead_load(const Load& load) {
+void Builder::add_dead_load(const ResolvedLoad& load) {
   const Scales& scales = out_.scales;
-  if (const auto* point = std::get_if<PointLoad>(&load)) {
+  if (const auto* point = std::get_if<ResolvedPointLoad>(&load)) {
     const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
                       scales.scaled_moment(point->moment)};
-    if (point->at.member.empty()) {
-      const int node = index_of(model_.nodes, point->at.node);
-      for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
-    } else {
-      const MeshPlace place =
-          place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
+    if (point->at.is_on_member()) {
+      const MeshPlace place = place_of(out_.mesh, point->at.member, point->at.fraction);
       add_point_action(pattern(point->pattern), place.element, place.xi, action);
+    } else {
+      const int node = point->at.node;
+      for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
     }
-  } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
+  } else if (const auto* distributed = std::get_if<ResolvedDistributedLoad>(&load)) {
     add_line_load(line_load(*distributed));
-  } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
+  } else if (const auto* strain = std::get_if<ResolvedInitialStrain>(&load)) {
     add_initial_strain(*strain);
   } else if (const auto* weight = std::get_if<SelfWeight>(&load)) {
-    for (const Member& member : model_.members) add_line_load(weight_of(model_, member, *weight));
-  } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {
+    for (std::size_t m = 0; m < model_.members.size(); ++m)
+      add_line_load(weight_of(model_, static_cast<int>(m), *weight));
+  } else if (const auto* temperature = std::get_if<ResolvedTemperatureLoad>(&load)) {
     add_initial_strain(strain_of(model_, *temperature));
   }
 }
 
 /// Whether the load vector of a model is that of another with the same mesh.
-bool has_same_loads(const Model& a, const Model& b) {
-  const auto follows_sections = [](const Load& load) {
-    return std::holds_alternative<SelfWeight>(load) || std::holds_alternative<TemperatureLoad>(load);
+bool has_same_loads(const ResolvedModel& a, const ResolvedModel& b) {
+  const auto follows_sections = [](const ResolvedLoad& load) {
+    return std::holds_alternative<SelfWeight>(load) || std::holds_alternative<ResolvedTemperatureLoad>(load);
   };
   return a.loads == b.loads &&
          (a.sections == b.sections || std::none_of(a.loads.begin(), a.loads.end(), follows_sections));
 }
 
 void Builder::add_loads(std::optional<double> load_scale) {
-  for (const Load& load : model_.loads)
-    if (const auto* pressure = std::get_if<PressureLoad>(&load)) add_pressure(*pressure);
+  for (const ResolvedLoad& load : model_.loads)
+    if (const auto* pressure = std::get_if<ResolvedPressureLoad>(&load)) add_pressure(*pressure);
   const bool known = like_ != nullptr && has_same_loads(model_, like_->model);
   if (known) {
     out_.proportional_load = like_->structure.proportional_load;
     out_.constant_load = like_->structure.constant_load;
   } else {
-    for (const Load& load : model_.loads) add_dead_load(load);
+    for (const ResolvedLoad& load : model_.loads) add_dead_load(load);
   }
   out_.scales.load = load_scale ? *load_scale : size_of_loads();
   if (!known) out_.proportional_load /= out_.scales.load;
   scale_other_actions();
 }
 
-void Builder::add_pressure(const PressureLoad& load) {
-  const int member = index_of(model_.members, load.member);
+void Builder::add_pressure(const ResolvedPressureLoad& load) {
+  const int member = load.member;
   // a medium on the left pushes along the right normal
   const double sense = load.side == Side::left ? 1.0 : -1.0;
   const bool proportional = load.pattern == Pattern::proportional;
@@ -532,10 +531,10 @@ void Builder::add_pressure(const PressureLoad& load) {
   }
 }
 
-void Builder::add_initial_strain(const InitialStrain& load) {
-  const int member = index_of(model_.members, load.member);
+void Builder::add_initial_strain(const ResolvedInitialStrain& load) {
+  const int member = load.member;
   const int p = out_.mesh.order;
-  const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
+  const Section& section = model_.sections[model_.members[member].section];
   if (load.pattern == Pattern::proportional)
     strain_size_ +=
         out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA.largest()) +
@@ -661,7 +660,7 @@ void Builder::set_metric() {
 
 }  // namespace
 
-ElementShape shape_of_element(const Structure& structure, const Model& model, int element) {
+ElementShape shape_of_element(const Structure& structure, const ResolvedModel& model, int element) {
   const int member = structure.mesh.elements[element].member;
   return shape_on(structure, model, element, *structure.stress_free[member]);
 }
@@ -671,9 +670,9 @@ namespace {
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
 /// @param like see Builder
-void fill(const Model& model, const Scales* scales, const Neighbour* like, Structure& out) {
-  const std::optional<Model> joined = with_joined_supports(model);
-  const Model& laws = joined ? *joined : model;
+void fill(const ResolvedModel& model, const Scales* scales, const Neighbour* like, Structure& out) {
+  const std::optional<ResolvedModel> joined = with_joined_supports(model);
+  const ResolvedModel& laws = joined ? *joined : model;
   Builder builder(model, laws, like, out);
   builder.set_scales(scales);
   bound_stiffness(model, out);
@@ -689,13 +688,13 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
   out.has_constant = builder.is_moved_by_constant_actions();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const AlongMember& EI = model.sections[model.members[m].section].EI;
     const double length = out.axes[m]->length();
     out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI.least() /
                               (length * length * out.scales.force));
     double foundation_load = 0.0;
-    for (const Foundation& foundation : model.foundations) {
-      if (foundation.member != model.members[m].id) continue;
+    for (const ResolvedFoundation& foundation : model.foundations) {
+      if (foundation.member != static_cast<int>(m)) continue;
       foundation_load += 2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI.largest()) +
                          foundation.shear_stiffness;
     }
@@ -716,7 +715,7 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
 
 namespace {
 
-void set_axes(const Model& model, const ModeOffsets& modes, Structure& out) {
+void set_axes(const ResolvedModel& model, const ModeOffsets& modes, Structure& out) {
   out.axes = make_axes(model);
   out.origin = {model.nodes.front().x, model.nodes.front().y};
   for (std::size_t m = 0; m < model.members.size(); ++m)
@@ -726,7 +725,7 @@ void set_axes(const Model& model, const ModeOffsets& modes, Structure& out) {
 
 }  // namespace
 
-Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
+Structure make_structure(const ResolvedModel& model, const Discretization& discretization, Geometry geometry,
                          const ModeOffsets& modes, MeshUse use) {
   Structure out;
   out.geometry = geometry;
@@ -739,8 +738,8 @@ Structure make_structure(const Model& model, const Discretization& discretizatio
 namespace {
 
 /// Structure of a model on a mesh, with axes and scales of another one.
-Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, TouchingSupports touching,
-                     const Neighbour* like) {
+Structure built_anew(const Structure& structure, const ResolvedModel& model, Mesh mesh,
+                     TouchingSupports touching, const Neighbour* like) {
   Structure out;
   out.geometry = structure.geometry;
   out.axes = structure.axes;
@@ -755,23 +754,23 @@ Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, 
 }
 
 /// Whether both models have the same axes, perfect and stress-free. @param modes see with_changed_model()
-bool has_same_axes(const Model& a, const Model& b, const ModeOffsets& modes) {
+bool has_same_axes(const ResolvedModel& a, const ResolvedModel& b, const ModeOffsets& modes) {
   return modes.empty() && a.nodes == b.nodes && a.members == b.members && a.imperfections == b.imperfections;
 }
 
 }  // namespace
 
-Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
+Structure on_mesh(const Structure& structure, const ResolvedModel& model, Mesh mesh) {
   return built_anew(structure, model, std::move(mesh), structure.touching, nullptr);
 }
 
-Structure with_touching(const Structure& structure, const Model& model, TouchingSupports touching) {
+Structure with_touching(const Structure& structure, const ResolvedModel& model, TouchingSupports touching) {
   const Neighbour like{structure, model};
   return built_anew(structure, model, structure.mesh, std::move(touching), &like);
 }
 
-Structure with_changed_model(const Structure& structure, const Model& model, const Model& changed,
-                             const ModeOffsets& modes) {
+Structure with_changed_model(const Structure& structure, const ResolvedModel& model,
+                             const ResolvedModel& changed, const ModeOffsets& modes) {
   if (has_same_axes(model, changed, modes)) {
     Mesh mesh = moved_mesh(structure.mesh, model, structure.axes, changed, structure.axes);
     const Neighbour like{structure, model};

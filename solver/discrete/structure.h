@@ -19,8 +19,8 @@
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/mesh/mesh.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
 #include "solver/model/scales.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -146,11 +146,12 @@ struct Structure {
 };
 
 /// Prescribed displacements of the ground under springs and foundations, in the order of their nodes.
-[[nodiscard]] std::vector<PrescribedDisplacement> ground_displacements(const Model& model);
+[[nodiscard]] std::vector<PrescribedDisplacement> ground_displacements(const ResolvedModel& model);
 
 /// @brief Point forces of a model that turn with their places; none in linear geometry.
 /// @pre the unknowns and scales of the structure are set
-[[nodiscard]] std::vector<FollowerForce> follower_forces_of(const Structure& structure, const Model& model);
+[[nodiscard]] std::vector<FollowerForce> follower_forces_of(const Structure& structure,
+                                                            const ResolvedModel& model);
 
 /// Adds the moments of semi-rigid joints at the unknowns y to the rows of a residual.
 void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
@@ -162,13 +163,13 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
 
 /// @brief Builds the structure of a model.
 /// @pre the model passed the reference and range checks of check()
-[[nodiscard]] Structure make_structure(const Model& model, const Discretization& discretization,
+[[nodiscard]] Structure make_structure(const ResolvedModel& model, const Discretization& discretization,
                                        Geometry geometry, const ModeOffsets& modes = {},
                                        MeshUse use = MeshUse::final);
 /// @brief Builds the structure of the same model, imperfections and scales on another mesh.
-[[nodiscard]] Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh);
+[[nodiscard]] Structure on_mesh(const Structure& structure, const ResolvedModel& model, Mesh mesh);
 /// @brief Builds the same structure with a known state of the supports that touch without pressure.
-[[nodiscard]] Structure with_touching(const Structure& structure, const Model& model,
+[[nodiscard]] Structure with_touching(const Structure& structure, const ResolvedModel& model,
                                       TouchingSupports touching);
 
 /// @brief Builds the structure of a changed model with the same members. Unknowns, elements and scales
@@ -177,19 +178,19 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
 /// @param model model of `structure`
 /// @param modes offsets of the changed model's mode imperfections
 /// @pre the changed model passed check()
-[[nodiscard]] Structure with_changed_model(const Structure& structure, const Model& model,
-                                           const Model& changed, const ModeOffsets& modes);
+[[nodiscard]] Structure with_changed_model(const Structure& structure, const ResolvedModel& model,
+                                           const ResolvedModel& changed, const ModeOffsets& modes);
 
 /// @brief Messages on foundations and springs that are omitted because their stiffness is zero.
-[[nodiscard]] std::vector<std::string> without_stiffness(const Model& model);
+[[nodiscard]] std::vector<std::string> without_stiffness(const ResolvedModel& model);
 
 /// @brief Functional row . (x, y, rotation) of the displacement at a location.
 /// @param row weights of (x, y, rotation)
-[[nodiscard]] SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at,
+[[nodiscard]] SparseRow displacement_row(const Structure& structure, const ResolvedLocation& at,
                                          std::array<double, 3> row);
 
 /// Rows that evaluate the monitors of a model. @pre the unknowns, axes and scales of the structure are set
-[[nodiscard]] std::vector<MonitorRow> monitor_rows(const Structure& structure, const Model& model);
+[[nodiscard]] std::vector<MonitorRow> monitor_rows(const Structure& structure, const ResolvedModel& model);
 
 /// Displacement of a spring into its medium at a state, with its derivative by the unknowns, and its
 /// reaction.
@@ -200,15 +201,16 @@ struct SpringReading {
   double depth = 0.0;  ///< a one-sided spring acts where this distance is positive
 };
 /// @param index index among the springs of the model
-[[nodiscard]] SpringReading reading_of(const Structure& structure, const Model& model, std::size_t index,
-                                       const Eigen::VectorXd& y);
+[[nodiscard]] SpringReading reading_of(const Structure& structure, const ResolvedModel& model,
+                                       std::size_t index, const Eigen::VectorXd& y);
 /// @brief Scaled spring along the present chord between two nodes that replaces a one-sided member, see
 /// with_rods_as_springs().
 /// @param index index among the springs of the model; that spring has a `rod`
-[[nodiscard]] NodeSpring rod_of(const Structure& structure, const Model& model, std::size_t index);
+[[nodiscard]] NodeSpring rod_of(const Structure& structure, const ResolvedModel& model, std::size_t index);
 
 /// @brief Stress-free geometry and compliances of an element, scaled.
-[[nodiscard]] ElementShape shape_of_element(const Structure& structure, const Model& model, int element);
+[[nodiscard]] ElementShape shape_of_element(const Structure& structure, const ResolvedModel& model,
+                                            int element);
 /// @brief Length of an element, scaled.
 [[nodiscard]] double length_of_element(const Structure& structure, int element);
 

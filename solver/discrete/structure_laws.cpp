@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "solver/discrete/stops.h"
-#include "solver/model/id_index.h"
 
 namespace snapthrough {
 namespace {
@@ -21,20 +20,20 @@ struct StiffnessAtStop {
   double bending = 0.0;
 };
 
-StiffnessAtStop stiffness_at_stop(const Model& model, const Structure& structure, const Spring& spring,
-                                  const SpringLaw& law) {
+StiffnessAtStop stiffness_at_stop(const ResolvedModel& model, const Structure& structure,
+                                  const ResolvedSpring& spring, const SpringLaw& law) {
   const Scales& scales = structure.scales;
   StiffnessAtStop sum;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const Member& member = model.members[m];
-    if (spring.at.member.empty() ? member.start != spring.at.node && member.end != spring.at.node
-                                 : member.id != spring.at.member)
+    const ResolvedMember& member = model.members[m];
+    if (spring.at.is_on_member() ? static_cast<int>(m) != spring.at.member
+                                 : member.start != spring.at.node && member.end != spring.at.node)
       continue;
-    const Section& section = model.sections[index_of(model.sections, member.section)];
+    const Section& section = model.sections[member.section];
     const AxisCurve& axis = *structure.axes[m];
     const double length = scales.scaled_length(axis.length());
     const double at_node = member.end == spring.at.node ? 1.0 : 0.0;
-    const double fraction = spring.at.member.empty() ? at_node : spring.at.fraction;
+    const double fraction = spring.at.is_on_member() ? spring.at.fraction : at_node;
     const double bending = section.EI.at(fraction) / (scales.force * std::pow(scales.length, 2) * length);
     const double axial = section.EA.at(fraction) / (scales.force * length);
     const double angle = axis.angle_at(fraction * axis.length());
@@ -47,7 +46,8 @@ StiffnessAtStop stiffness_at_stop(const Model& model, const Structure& structure
 }
 
 /// Sets the law of a spring that stands for a stop. A stop at a node has its force as an unknown.
-void set_stop(const Model& model, const Structure& structure, const Spring& spring, SpringLaw& law) {
+void set_stop(const ResolvedModel& model, const Structure& structure, const ResolvedSpring& spring,
+              SpringLaw& law) {
   const StiffnessAtStop members = stiffness_at_stop(model, structure, spring, law);
   law.law.stiffness = kStopStiffness * (members.axial + members.bending);
   if (!is_stop(spring) || node_of_stop(structure, model, spring) < 0) return;
@@ -57,7 +57,7 @@ void set_stop(const Model& model, const Structure& structure, const Spring& spri
 
 }  // namespace
 
-void add_laws(const Model& members, const Model& supports, const Structure& structure,
+void add_laws(const ResolvedModel& members, const ResolvedModel& supports, const Structure& structure,
               std::vector<FoundationLaw>& foundations, std::vector<SpringLaw>& springs) {
   int ground = 3 * structure.first_ground;
   const auto ground_under = [&ground](const auto& support) {
@@ -65,12 +65,12 @@ void add_laws(const Model& members, const Model& supports, const Structure& stru
     ground += 3;
     return ground - 3;
   };
-  for (const Spring& spring : supports.springs) {
+  for (const ResolvedSpring& spring : supports.springs) {
     SpringLaw& law = springs.emplace_back(law_of(spring, structure.scales));
     law.ground = ground_under(spring);
     if (!std::isfinite(law.law.stiffness)) set_stop(members, structure, spring, law);
   }
-  for (const Foundation& foundation : supports.foundations) {
+  for (const ResolvedFoundation& foundation : supports.foundations) {
     foundations.push_back(law_of(foundation, structure.scales, structure.origin));
     foundations.back().fixed_tangents =
         structure.geometry == Geometry::linear || structure.mesh.foundation == FoundationRule::lumped;
@@ -78,20 +78,20 @@ void add_laws(const Model& members, const Model& supports, const Structure& stru
   }
 }
 
-std::vector<PrescribedDisplacement> ground_displacements(const Model& model) {
+std::vector<PrescribedDisplacement> ground_displacements(const ResolvedModel& model) {
   std::vector<PrescribedDisplacement> out;
-  for (const Spring& spring : model.springs)
+  for (const ResolvedSpring& spring : model.springs)
     if (spring.displacement) out.push_back(*spring.displacement);
-  for (const Foundation& foundation : model.foundations)
+  for (const ResolvedFoundation& foundation : model.foundations)
     if (const auto& moved = foundation.displacement)
       out.push_back({largest_size(moved->x), largest_size(moved->y), 0.0, moved->pattern});
   return out;
 }
 
-void bound_stiffness(const Model& model, Structure& structure) {
+void bound_stiffness(const ResolvedModel& model, Structure& structure) {
   const Mesh& mesh = structure.mesh;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const AlongMember& EI = model.sections[model.members[m].section].EI;
     const auto length_of = [&](int e) {
       const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
       return (cell.to - cell.from) * structure.axes[m]->length();
@@ -111,7 +111,7 @@ void bound_stiffness(const Model& model, Structure& structure) {
   }
 }
 
-double stiffness_on(const Structure& structure, const Foundation& foundation, int member) {
+double stiffness_on(const Structure& structure, const ResolvedFoundation& foundation, int member) {
   const double stiffness = initial_stiffness(foundation);
   if (std::isfinite(stiffness)) return stiffness;
   const auto first = structure.stiffest_rigid.begin();

@@ -5,16 +5,15 @@
 #include <span>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/id_index.h"
 #include "solver/numeric/max_order.h"
 
 namespace snapthrough {
 
-std::vector<std::string> without_stiffness(const Model& model) {
+std::vector<std::string> without_stiffness(const ResolvedModel& model) {
   std::vector<std::string> out;
-  for (const Foundation& foundation : model.foundations)
+  for (const ResolvedFoundation& foundation : model.foundations)
     if (initial_stiffness(foundation) == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
-  for (const Spring& spring : model.springs)
+  for (const ResolvedSpring& spring : model.springs)
     if (initial_stiffness(spring) == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
   return out;
 }
@@ -59,18 +58,18 @@ MeshPlace place_of(const Mesh& mesh, int member, double fraction) {
   return {e, xi < one ? 0.0 : (xi > 1.0 - one ? 1.0 : xi)};
 }
 
-SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at,
+SparseRow displacement_row(const Structure& structure, const ResolvedLocation& at,
                            std::array<double, 3> row) {
   SparseRow out;
   const auto add = [&](Eigen::Index index, double weight) {
     if (weight != 0.0) out.entries.emplace_back(index, weight);
   };
-  if (at.member.empty()) {
-    const int node = index_of(model.nodes, at.node);
+  if (!at.is_on_member()) {
+    const int node = at.node;
     for (int c = 0; c < 3; ++c) add(3 * node + c, row[c]);
     return out;
   }
-  const int member = index_of(model.members, at.member);
+  const int member = at.member;
   const MeshPlace place = place_of(structure.mesh, member, at.fraction);
   const ElementDofs& dofs = structure.dofs[place.element];
   const MeshElement& cell = structure.mesh.elements[place.element];
@@ -85,9 +84,9 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
   return out;
 }
 
-std::vector<MonitorRow> monitor_rows(const Structure& structure, const Model& model) {
+std::vector<MonitorRow> monitor_rows(const Structure& structure, const ResolvedModel& model) {
   std::vector<MonitorRow> out;
-  for (const Monitor& monitor : model.monitors) {
+  for (const ResolvedMonitor& monitor : model.monitors) {
     std::array<double, 3> row{0.0, 0.0, 0.0};
     double unit = structure.scales.length;
     if (monitor.component == Component::x) row[0] = 1.0;
@@ -97,20 +96,20 @@ std::vector<MonitorRow> monitor_rows(const Structure& structure, const Model& mo
       unit = 1.0;
     }
     if (monitor.component == Component::normal) {
-      const AxisCurve& axis = *structure.axes[index_of(model.members, monitor.at.member)];
+      const AxisCurve& axis = *structure.axes[monitor.at.member];
       const double angle = axis.at(monitor.at.fraction * axis.length()).angle;
       row = {-std::sin(angle), std::cos(angle), 0.0};
     }
-    MonitorRow& reading = out.emplace_back(monitor.id, displacement_row(structure, model, monitor.at, row));
+    MonitorRow& reading = out.emplace_back(monitor.id, displacement_row(structure, monitor.at, row));
     for (auto& [index, weight] : reading.row.entries) weight *= unit;
   }
   return out;
 }
 
-std::vector<FollowerForce> follower_forces_of(const Structure& structure, const Model& model) {
+std::vector<FollowerForce> follower_forces_of(const Structure& structure, const ResolvedModel& model) {
   std::vector<FollowerForce> out;
-  for (const Load& load : model.loads) {
-    const auto* point = std::get_if<PointLoad>(&load);
+  for (const ResolvedLoad& load : model.loads) {
+    const auto* point = std::get_if<ResolvedPointLoad>(&load);
     if (point == nullptr || is_dead(*point) || structure.geometry == Geometry::linear) continue;
     FollowerForce& force = out.emplace_back();
     force.fixed_line = point->fixed_line;
@@ -119,7 +118,7 @@ std::vector<FollowerForce> follower_forces_of(const Structure& structure, const 
       (grows ? force.proportional : force.constant)[c] =
           structure.scales.scaled_force(point->force[c]) / (grows ? structure.scales.load : 1.0);
     const auto along = [&](std::array<double, 3> row) {
-      return displacement_row(structure, model, point->at, row).entries;
+      return displacement_row(structure, point->at, row).entries;
     };
     const auto x = along({1.0, 0.0, 0.0});
     const auto y = along({0.0, 1.0, 0.0});
@@ -131,15 +130,14 @@ std::vector<FollowerForce> follower_forces_of(const Structure& structure, const 
   return out;
 }
 
-NodeSpring rod_of(const Structure& structure, const Model& model, std::size_t index) {
-  const Spring& spring = model.springs[index];
-  return node_spring(structure.spring_laws[index], index_of(model.nodes, spring.at.node),
-                     index_of(model.nodes, spring.to->node));
+NodeSpring rod_of(const Structure& structure, const ResolvedModel& model, std::size_t index) {
+  const ResolvedSpring& spring = model.springs[index];
+  return node_spring(structure.spring_laws[index], spring.at.node, spring.to->node);
 }
 
-SpringReading reading_of(const Structure& structure, const Model& model, std::size_t index,
+SpringReading reading_of(const Structure& structure, const ResolvedModel& model, std::size_t index,
                          const Eigen::VectorXd& y) {
-  const Spring& spring = model.springs[index];
+  const ResolvedSpring& spring = model.springs[index];
   SpringReading out;
   std::array<double, 3> row = structure.spring_laws[index].row;
   if (spring.rod) {
@@ -148,9 +146,9 @@ SpringReading reading_of(const Structure& structure, const Model& model, std::si
     out.displacement = motion.w;
     row = {motion.gradient[0], motion.gradient[1], 0.0};
   }
-  out.row = displacement_row(structure, model, spring.at, row);
+  out.row = displacement_row(structure, spring.at, row);
   if (spring.to)
-    for (const auto& [at, weight] : displacement_row(structure, model, *spring.to, row).entries)
+    for (const auto& [at, weight] : displacement_row(structure, *spring.to, row).entries)
       out.row.entries.emplace_back(at, -weight);
   if (const int ground = structure.spring_laws[index].ground; ground >= 0)
     for (int c = 0; c < 3; ++c) out.row.entries.emplace_back(ground + c, -row[c]);

@@ -50,9 +50,9 @@ bool UnilateralBalance::Forces::vanish() const { return sum.norm() <= Rounding::
 
 UnilateralBalance::UnilateralBalance(const FreeMotions& motions) : motions_(motions) {
   if (motions.empty()) return;
-  for (const Spring& spring : motions.joined_model().springs)
+  for (const ResolvedSpring& spring : motions.joined_model().springs)
     if (is_one_sided(spring)) add(spring);
-  for (const Foundation& foundation : motions.joined_model().foundations)
+  for (const ResolvedFoundation& foundation : motions.joined_model().foundations)
     if (is_one_sided(foundation)) add(foundation);
   close_groups();
   add_loads();
@@ -74,7 +74,7 @@ std::optional<VectorXd> UnilateralBalance::unit_row(const Row& row) const {
   return out / norm;
 }
 
-void UnilateralBalance::add(const Spring& spring) {
+void UnilateralBalance::add(const ResolvedSpring& spring) {
   Row row = motions_.parts().displacement(spring);
   for (auto& [unknown, weight] : row) weight *= sense_of(spring.reaction);
   add_support({row}, nullptr);
@@ -86,8 +86,8 @@ Row UnilateralBalance::row_at(const CurvedSupport& support, double fraction) con
                                        support.law.initial_direction({{at.x, at.y}, at.angle, fraction}));
 }
 
-void UnilateralBalance::add(const Foundation& foundation) {
-  const int member = motions_.parts().member(foundation.member);
+void UnilateralBalance::add(const ResolvedFoundation& foundation) {
+  const int member = foundation.member;
   const CurvedSupport whole{member, foundation.range, motions_.parts().law(foundation)};
   const auto [from, to] = foundation.range;
   std::vector<Row> rows{row_at(whole, from), row_at(whole, to)};
@@ -155,7 +155,7 @@ void UnilateralBalance::add_loads() {
     const VectorXd weights = seen.rowwise().norm();
     VectorXd constant = VectorXd::Zero(unknowns);
     VectorXd proportional = VectorXd::Zero(unknowns);
-    for (const Load& load : motions_.joined_model().loads) {
+    for (const ResolvedLoad& load : motions_.joined_model().loads) {
       const bool is_constant = pattern_of(load) == Pattern::constant;
       VectorXd& forces = is_constant ? constant : proportional;
       double& size = is_constant ? group.constant.size : group.proportional.size;

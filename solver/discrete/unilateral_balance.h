@@ -83,8 +83,8 @@ class UnilateralBalance {
   [[nodiscard]] Eigen::VectorXd on_motions(const RigidParts::Row& row) const;
   [[nodiscard]] std::optional<Eigen::VectorXd> unit_row(const RigidParts::Row& row) const;
   [[nodiscard]] RigidParts::Row row_at(const CurvedSupport& support, double fraction) const;
-  void add(const Spring& spring);
-  void add(const Foundation& foundation);
+  void add(const ResolvedSpring& spring);
+  void add(const ResolvedFoundation& foundation);
   void add_support(const std::vector<RigidParts::Row>& rows, const CurvedSupport* curved);
   void close_groups();
   void add_loads();

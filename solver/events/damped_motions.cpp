@@ -18,7 +18,8 @@ using Eigen::MatrixXd;
 constexpr double kOscillates = 1e-6;
 
 /// Y^T K X: section forces of the motions times their strains, and moments of joints times their rotations.
-MatrixXd elastic_work(const Structure& structure, const Model& model, const MatrixXd& Y, const MatrixXd& X) {
+MatrixXd elastic_work(const Structure& structure, const ResolvedModel& model, const MatrixXd& Y,
+                      const MatrixXd& X) {
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const int p = rule.order();
   MatrixXd out = MatrixXd::Zero(Y.cols(), X.cols());
@@ -60,7 +61,7 @@ MatrixXd action_of(const NaturalMotions& motions) {
 
 }  // namespace
 
-GrowingMotion most_growing(const Structure& structure, const Model& model, const MassMatrix& masses,
+GrowingMotion most_growing(const Structure& structure, const ResolvedModel& model, const MassMatrix& masses,
                            const NaturalMotions& right, const NaturalMotions& left) {
   const MatrixXd& X = right.motions;
   const MatrixXd& Y = left.motions;

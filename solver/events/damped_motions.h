@@ -20,7 +20,7 @@ struct GrowingMotion {
 /// the span of undamped motions: s to first order in the damping of the motions that were left out.
 /// @param model model of the structure, with Model::damping
 /// @param right, left motions of J and of its transpose; equal numbers
-[[nodiscard]] GrowingMotion most_growing(const Structure& structure, const Model& model,
+[[nodiscard]] GrowingMotion most_growing(const Structure& structure, const ResolvedModel& model,
                                          const MassMatrix& masses, const NaturalMotions& right,
                                          const NaturalMotions& left);
 

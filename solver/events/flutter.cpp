@@ -133,7 +133,8 @@ auto closed_by_load(double tolerance) {
 
 }  // namespace
 
-FlutterSearch::FlutterSearch(const Structure& structure, const Model& model, StructuralProblem::Stage stage)
+FlutterSearch::FlutterSearch(const Structure& structure, const ResolvedModel& model,
+                             StructuralProblem::Stage stage)
     : problem_(structure), structure_(structure), model_(model), masses_(make_mass_matrix(structure, model)) {
   problem_.set_stage(stage);
   for (Eigen::MatrixXd& forces : follower_parts(structure, FlutterLimits::forces)) {

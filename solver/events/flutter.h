@@ -47,7 +47,7 @@ class FlutterSearch {
   /// @param structure, model kept by reference; must outlive this object
   /// @param stage actions that the load factor multiplies
   /// @pre structure.unsymmetric() and has_mass(model)
-  FlutterSearch(const Structure& structure, const Model& model,
+  FlutterSearch(const Structure& structure, const ResolvedModel& model,
                 StructuralProblem::Stage stage = StructuralProblem::Stage::proportional);
 
   /// @brief Follows the natural motions between two points of a path.
@@ -92,7 +92,7 @@ class FlutterSearch {
 
   StructuralProblem problem_;
   const Structure& structure_;
-  const Model& model_;
+  const ResolvedModel& model_;
   MassMatrix masses_;
   KrylovColumns columns_;
   std::vector<Part> parts_;

@@ -53,7 +53,7 @@ bool is_known(const TouchingSupports& touching) {
 }
 
 /// Finds which of the supports that touch under a reference load act; empty: no buckling load was found.
-TouchingSupports least_piece(const Model& model, const Structure& structure, double reference,
+TouchingSupports least_piece(const ResolvedModel& model, const Structure& structure, double reference,
                              const VectorXd& near, LinearBuckling& buckling) {
   const Structure unknown = with_touching(structure, model, {});
   StructuralProblem problem(unknown);
@@ -81,7 +81,7 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
 
 }  // namespace
 
-std::optional<Structure> with_least_piece(const Model& model, const Structure& structure,
+std::optional<Structure> with_least_piece(const ResolvedModel& model, const Structure& structure,
                                           StructuralProblem& problem, const PathNorm& norm,
                                           const PathStart& start, Result& result) {
   if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
@@ -106,7 +106,7 @@ std::optional<Structure> with_least_piece(const Model& model, const Structure& s
   return out;
 }
 
-Structure with_finer_piece(const Model& model, const Structure& coarse, Mesh mesh) {
+Structure with_finer_piece(const ResolvedModel& model, const Structure& coarse, Mesh mesh) {
   Structure fine = on_mesh(coarse, model, std::move(mesh));
   const auto& parts = fine.touching.foundations;
   const auto acts = [](const TouchingSupports::FoundationRange& part) { return part.touch == Touch::acts; };

@@ -6,24 +6,24 @@
 
 namespace snapthrough {
 
-AxisCurve axis_of(const Model& model, const IdIndex& nodes, const Member& member) {
-  const Node& origin = model.nodes.front();
-  const Node& a = model.nodes[static_cast<std::size_t>(nodes.of(member.start))];
-  const Node& b = model.nodes[static_cast<std::size_t>(nodes.of(member.end))];
+AxisCurve axis_of(const Curve& curve, const Node& origin, const Node& a, const Node& b) {
   const std::array<double, 2> start{a.x - origin.x, a.y - origin.y};
   const std::array<double, 2> end{b.x - origin.x, b.y - origin.y};
-  const auto* given = std::get_if<PointsCurve>(&member.curve);
-  if (given == nullptr) return {member.curve, start, end};
+  const auto* given = std::get_if<PointsCurve>(&curve);
+  if (given == nullptr) return {curve, start, end};
   PointsCurve points = *given;
   for (auto& point : points.points) point = {point[0] - origin.x, point[1] - origin.y};
   return {points, start, end};
 }
 
-Axes make_axes(const Model& model) {
-  const IdIndex nodes(model.nodes);
+AxisCurve axis_of(const ResolvedModel& model, const ResolvedMember& member) {
+  return axis_of(member.curve, model.nodes.front(), model.start_of(member), model.end_of(member));
+}
+
+Axes make_axes(const ResolvedModel& model) {
   Axes axes;
-  for (const Member& member : model.members)
-    axes.push_back(std::make_shared<const AxisCurve>(axis_of(model, nodes, member)));
+  for (const ResolvedMember& member : model.members)
+    axes.push_back(std::make_shared<const AxisCurve>(axis_of(model, member)));
   return axes;
 }
 

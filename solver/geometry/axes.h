@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "solver/geometry/axis_curve.h"
-#include "solver/model/id_index.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
 /// Axes of all members in the model's units, relative to the first node.
 using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
-[[nodiscard]] Axes make_axes(const Model& model);
-/// @brief Axis of one member, as in make_axes().
-/// @param nodes index of the model's nodes
-[[nodiscard]] AxisCurve axis_of(const Model& model, const IdIndex& nodes, const Member& member);
+[[nodiscard]] Axes make_axes(const ResolvedModel& model);
+/// Axis of one member, as in make_axes().
+[[nodiscard]] AxisCurve axis_of(const ResolvedModel& model, const ResolvedMember& member);
+/// Axis of a curve from node `a` to node `b`, relative to the node `origin`.
+[[nodiscard]] AxisCurve axis_of(const Curve& curve, const Node& origin, const Node& a, const Node& b);
 
 }  // namespace snapthrough

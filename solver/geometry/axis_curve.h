@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 

@@ -8,7 +8,7 @@
 namespace snapthrough {
 namespace {
 
-CubicSpline spline_of(const PointsImperfection& points, double length) {
+CubicSpline spline_of(const ResolvedPointsImperfection& points, double length) {
   std::vector<double> s;
   std::vector<double> w;
   if (points.offsets.empty() || points.offsets.front()[0] > 0.0) {
@@ -28,16 +28,16 @@ CubicSpline spline_of(const PointsImperfection& points, double length) {
 
 }  // namespace
 
-StressFreeAxis::StressFreeAxis(const Model& model, int member, std::shared_ptr<const AxisCurve> axis,
+StressFreeAxis::StressFreeAxis(const ResolvedModel& model, int member, std::shared_ptr<const AxisCurve> axis,
                                const std::vector<CubicSpline>& modes)
     : axis_(std::move(axis)), splines_(modes) {
-  const std::string& id = model.members[member].id;
-  for (const Imperfection& imperfection : model.imperfections) {
-    const auto* sine = std::get_if<SineImperfection>(&imperfection);
-    if (sine != nullptr && sine->member == id && sine->amplitude != 0.0)
+  for (const ResolvedImperfection& imperfection : model.imperfections) {
+    const auto* sine = std::get_if<ResolvedSineImperfection>(&imperfection);
+    if (sine != nullptr && sine->member == member && sine->amplitude != 0.0)
       sines_.push_back({sine->half_waves * std::numbers::pi / axis_->length(), sine->amplitude});
-    const auto* points = std::get_if<PointsImperfection>(&imperfection);
-    if (points != nullptr && points->member == id) splines_.push_back(spline_of(*points, axis_->length()));
+    const auto* points = std::get_if<ResolvedPointsImperfection>(&imperfection);
+    if (points != nullptr && points->member == member)
+      splines_.push_back(spline_of(*points, axis_->length()));
   }
 }
 

@@ -8,7 +8,7 @@
 #include "solver/geometry/axes.h"
 #include "solver/geometry/axis_curve.h"
 #include "solver/geometry/cubic_spline.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -28,7 +28,7 @@ using ModeOffsets = std::vector<std::vector<CubicSpline>>;
 class StressFreeAxis {
  public:
   /// @param modes offsets from buckling modes; may be empty
-  StressFreeAxis(const Model& model, int member, std::shared_ptr<const AxisCurve> axis,
+  StressFreeAxis(const ResolvedModel& model, int member, std::shared_ptr<const AxisCurve> axis,
                  const std::vector<CubicSpline>& modes);
   [[nodiscard]] StressFreePoint at(double s) const { return at(s, axis_->at(s)); }
   /// @param perfect perfect axis at s

@@ -6,7 +6,6 @@
 #include <string>
 #include <variant>
 
-#include "solver/model/id_index.h"
 #include "solver/numeric/rounding.h"
 #include "solver/support/law.h"
 
@@ -27,7 +26,7 @@ void add_points_inside(const Along& along, std::array<double, 2> range, std::vec
 }
 
 /// Intervals of the spline through the offsets and the ends of the member.
-double intervals_of(const PointsImperfection& points) {
+double intervals_of(const ResolvedPointsImperfection& points) {
   const int ends = (points.offsets.front()[0] > 0.0 ? 1 : 0) + (points.offsets.back()[0] < 1.0 ? 1 : 0);
   return static_cast<double>(points.offsets.size()) - 1.0 + ends;
 }
@@ -35,32 +34,26 @@ double intervals_of(const PointsImperfection& points) {
 /// Collects what acts on each member.
 class Collector {
  public:
-  explicit Collector(const Model& model)
-      : model_(model),
-        members_(model.members),
-        actions_(model.members.size(), {{0.0, 1.0}, {}, nullptr, 0.0}) {}
+  explicit Collector(const ResolvedModel& model)
+      : model_(model), actions_(model.members.size(), {{0.0, 1.0}, {}, nullptr, 0.0}) {}
 
   std::vector<MemberActions> collect() && {
     add_sections();
-    for (const Spring& spring : model_.springs) add(spring.at);
-    for (const PointMass& mass : model_.masses) add(mass.at);
-    for (const Foundation& foundation : model_.foundations) add(foundation);
-    for (const Load& load : model_.loads) std::visit([this](const auto& one) { add(one); }, load);
-    for (const Imperfection& imperfection : model_.imperfections)
+    for (const ResolvedSpring& spring : model_.springs) add(spring.at);
+    for (const ResolvedPointMass& mass : model_.masses) add(mass.at);
+    for (const ResolvedFoundation& foundation : model_.foundations) add(foundation);
+    for (const ResolvedLoad& load : model_.loads) std::visit([this](const auto& one) { add(one); }, load);
+    for (const ResolvedImperfection& imperfection : model_.imperfections)
       std::visit([this](const auto& one) { add(one); }, imperfection);
     return std::move(actions_);
   }
 
  private:
-  MemberActions& on(const std::string& member) {
-    return actions_[static_cast<std::size_t>(members_.of(member))];
-  }
+  MemberActions& on(int member) { return actions_[static_cast<std::size_t>(member)]; }
 
   void add_sections() {
-    const IdIndex sections(model_.sections);
     for (std::size_t m = 0; m < model_.members.size(); ++m) {
-      const auto index = static_cast<std::size_t>(sections.of(model_.members[m].section));
-      const Section& section = model_.sections[index];
+      const Section& section = model_.section_of(model_.members[m]);
       MemberActions& actions = actions_[m];
       actions.section = &section;
       for (const AlongMember* value : {&section.EA, &section.EI}) add_points(value->points, actions.places);
@@ -70,11 +63,11 @@ class Collector {
   }
 
   /// Place on a member; one at a node has none.
-  void add(const Location& at) {
-    if (!at.member.empty()) on(at.member).places.push_back(at.fraction);
+  void add(const ResolvedLocation& at) {
+    if (at.is_on_member()) on(at.member).places.push_back(at.fraction);
   }
 
-  void add(const Foundation& foundation) {
+  void add(const ResolvedFoundation& foundation) {
     MemberActions& actions = on(foundation.member);
     std::vector<double>& places = actions.places;
     actions.foundations.push_back(&foundation);
@@ -88,42 +81,43 @@ class Collector {
     add_points(foundation.displacement->y.points, places);
   }
 
-  void add(const PointLoad& load) { add(load.at); }
-  void add(const DistributedLoad& load) {
+  void add(const ResolvedPointLoad& load) { add(load.at); }
+  void add(const ResolvedDistributedLoad& load) {
     std::vector<double>& places = on(load.member).places;
     places.insert(places.end(), load.range.begin(), load.range.end());
     add_points(load.force_along, places);
   }
-  void add(const PressureLoad& load) { add_points(load.value_along, on(load.member).places); }
-  void add(const InitialStrain& strain) {
+  void add(const ResolvedPressureLoad& load) { add_points(load.value_along, on(load.member).places); }
+  void add(const ResolvedInitialStrain& strain) {
     add_points(strain.axial_along, on(strain.member).places);
     add_points(strain.curvature_along, on(strain.member).places);
   }
-  void add(const TemperatureLoad& load) {
+  void add(const ResolvedTemperatureLoad& load) {
     add_points(load.change_along, on(load.member).places);
     add_points(load.gradient_along, on(load.member).places);
   }
 
-  void add(const SineImperfection& sine) { need(sine.member, 2.0 * sine.half_waves); }
-  void add(const PointsImperfection& points) { need(points.member, intervals_of(points)); }
+  void add(const ResolvedSineImperfection& sine) { need(sine.member, 2.0 * sine.half_waves); }
+  void add(const ResolvedPointsImperfection& points) { need(points.member, intervals_of(points)); }
   // these put no element ends on a member
   void add(const SelfWeight& /*weight*/) {}
   void add(const ModeImperfection& /*mode*/) {}
   void add(const WorstImperfection& /*worst*/) {}
 
-  void need(const std::string& member, double elements) {
+  void need(int member, double elements) {
     double& least = on(member).imperfection_elements;
     least = std::max(least, elements);
   }
 
-  const Model& model_;
-  IdIndex members_;
+  const ResolvedModel& model_;
   std::vector<MemberActions> actions_;
 };
 
 }  // namespace
 
-std::vector<MemberActions> actions_on_members(const Model& model) { return Collector(model).collect(); }
+std::vector<MemberActions> actions_on_members(const ResolvedModel& model) {
+  return Collector(model).collect();
+}
 
 std::vector<double> breaks_of(const MemberActions& actions, const AxisCurve& axis) {
   std::vector<double> at = actions.places;

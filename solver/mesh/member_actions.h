@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/geometry/axis_curve.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -22,7 +22,7 @@ struct MemberActions {
 
 /// @brief Actions on each member of a model, in their order.
 /// @pre check() found nothing; the model outlives the result
-[[nodiscard]] std::vector<MemberActions> actions_on_members(const Model& model);
+[[nodiscard]] std::vector<MemberActions> actions_on_members(const ResolvedModel& model);
 
 /// @brief Fractions at which elements of a member must end, ascending, with 0 and 1: the places of its
 /// actions and the knots of its axis.

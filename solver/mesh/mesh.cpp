@@ -9,7 +9,6 @@
 #include <unordered_map>
 
 #include "solver/mesh/member_actions.h"
-#include "solver/model/id_index.h"
 #include "solver/numeric/rounding.h"
 #include "solver/numeric/work_limit.h"
 #include "solver/support/law.h"
@@ -173,7 +172,8 @@ std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> 
   return {lo < one ? 0.0 : lo, hi > 1.0 - one ? 1.0 : hi};
 }
 
-Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
+Mesh make_mesh(const ResolvedModel& model, const Discretization& discretization, const Axes& axes,
+               MeshUse use) {
   const MeshChoice choice(discretization, use);
   const GivenCounts given(discretization);
   const std::vector<MemberActions> actions = actions_on_members(model);
@@ -199,20 +199,26 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
   return mesh;
 }
 
-MeshSize mesh_size(const Model& model, const Discretization& discretization, MeshUse use) {
+long long given_elements(const std::vector<Member>& members, const Discretization& discretization) {
+  const GivenCounts given(discretization);
+  long long sum = 0;
+  for (const Member& member : members) sum += given.of(member);
+  return sum;
+}
+
+MeshSize mesh_size(const ResolvedModel& model, const Discretization& discretization, MeshUse use) {
   if (discretization.fixed_mesh) {
     const GivenCounts given(discretization);
     MeshSize size{0, discretization.order};
-    for (const Member& member : model.members) size.elements += given.of(member);
+    for (const ResolvedMember& member : model.members) size.elements += given.of(member);
     return size;
   }
   const MeshChoice choice(discretization, use);
   const std::vector<MemberActions> actions = actions_on_members(model);
-  const IdIndex nodes(model.nodes);
   MeshSize size{0, choice.rule().order};
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     WorkLimit::poll();
-    const AxisCurve axis = axis_of(model, nodes, model.members[m]);
+    const AxisCurve axis = axis_of(model, model.members[m]);
     for (const int count : choice.counts(actions[m], axis, breaks_of(actions[m], axis)))
       size.elements += count;
   }
@@ -235,7 +241,7 @@ std::optional<Mesh> finer_mesh(const Mesh& mesh) {
   return out;
 }
 
-Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Model& moved,
+Mesh moved_mesh(const Mesh& mesh, const ResolvedModel& model, const Axes& axes, const ResolvedModel& moved,
                 const Axes& moved_axes) {
   Mesh out = mesh;
   const std::vector<MemberActions> actions = actions_on_members(model);
@@ -266,7 +272,8 @@ Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Mo
   return out;
 }
 
-Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const std::vector<double>& decays) {
+Mesh layered_mesh(const Mesh& mesh, const ResolvedModel& model, const Axes& axes,
+                  const std::vector<double>& decays) {
   Mesh out = mesh;
   out.elements.clear();
   const std::vector<MemberActions> actions = actions_on_members(model);

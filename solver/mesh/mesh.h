@@ -9,7 +9,7 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -61,8 +61,8 @@ enum class MeshUse {
 /// the error in a load is of third order in their length. Rigid foundations get them on every mesh that is
 /// not fixed.
 /// @param use purpose of the mesh, unless it is fixed
-[[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
-                             MeshUse use = MeshUse::final);
+[[nodiscard]] Mesh make_mesh(const ResolvedModel& model, const Discretization& discretization,
+                             const Axes& axes, MeshUse use = MeshUse::final);
 
 /// Number of elements of a whole mesh, and the order of each.
 struct MeshSize {
@@ -73,8 +73,12 @@ struct MeshSize {
 /// @brief Size of the mesh that make_mesh() would make, counted member by member without making it: its
 /// memory is that of one member's axis.
 /// @pre check() found nothing
-[[nodiscard]] MeshSize mesh_size(const Model& model, const Discretization& discretization,
+[[nodiscard]] MeshSize mesh_size(const ResolvedModel& model, const Discretization& discretization,
                                  MeshUse use = MeshUse::final);
+
+/// Number of elements that a request gives to members. @pre the mesh is fixed
+[[nodiscard]] long long given_elements(const std::vector<Member>& members,
+                                       const Discretization& discretization);
 
 /// Discretization with which make_mesh() keeps the full stiffness of every foundation.
 [[nodiscard]] inline Discretization as_stiff_as_given(Discretization discretization) {
@@ -91,13 +95,13 @@ struct MeshSize {
 /// and keep their proportions in between.
 /// @param axes, moved_axes axes of both models, which have the same members
 /// @return the mesh; fractions are unchanged where places of action differ in number or are no element ends
-[[nodiscard]] Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Model& moved,
-                              const Axes& moved_axes);
+[[nodiscard]] Mesh moved_mesh(const Mesh& mesh, const ResolvedModel& model, const Axes& axes,
+                              const ResolvedModel& moved, const Axes& moved_axes);
 
 /// @brief Refines a mesh at boundary layers: elements next to places of action are halved towards them until
 /// they resolve the decay length.
 /// @param decays decay length for each member, in the model's units; infinite: no boundary layer
-[[nodiscard]] Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes,
+[[nodiscard]] Mesh layered_mesh(const Mesh& mesh, const ResolvedModel& model, const Axes& axes,
                                 const std::vector<double>& decays);
 
 }  // namespace snapthrough

@@ -22,7 +22,7 @@ std::string list_of(const std::vector<std::string>& ids) {
 
 }  // namespace
 
-CapacityLimit capacity_limit(const Model& model, const CapacityEnds& ends, const CapacityEnd& end,
+CapacityLimit capacity_limit(const ResolvedModel& model, const CapacityEnds& ends, const CapacityEnd& end,
                              double load_factor) {
   CapacityLimit out;
   out.load_factor = load_factor;
@@ -44,7 +44,7 @@ CapacityLimit capacity_limit(const Model& model, const CapacityEnds& ends, const
   return out;
 }
 
-std::string capacity_text(const Model& model, const CapacityEnds& ends, const CapacityEnd& end) {
+std::string capacity_text(const ResolvedModel& model, const CapacityEnds& ends, const CapacityEnd& end) {
   const bool is_constant = ends.constant && &end == &*ends.constant;
   const double factor = is_constant ? 0.0 : end.factor;
   const Escape escape{end.motion, true, {1.0, factor}};

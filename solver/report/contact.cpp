@@ -4,7 +4,6 @@
 
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/layer_state.h"
-#include "solver/model/id_index.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/support_state.h"
 
@@ -37,12 +36,12 @@ std::vector<std::array<double, 2>> layer_intervals(const Structure& structure, c
 
 }  // namespace
 
-std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const Model& model,
+std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const ResolvedModel& model,
                                                      const Eigen::VectorXd& y, int foundation, double depth) {
   if (initial_stiffness(model.foundations[foundation]) == 0.0) return {};
   if (structure.foundation_laws[static_cast<std::size_t>(foundation)].has_layer())
     return layer_intervals(structure, y, foundation, depth);
-  const int member = index_of(model.members, model.foundations[foundation].member);
+  const int member = model.foundations[foundation].member;
   const double length = structure.axes[member]->length();
   std::vector<std::array<double, 2>> joined;
   std::vector<FoundationContact::Interval> local;
@@ -63,7 +62,7 @@ std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
   return joined;
 }
 
-ContactZones::ContactZones(const Structure& structure, const Model& model)
+ContactZones::ContactZones(const Structure& structure, const ResolvedModel& model)
     : structure_(structure), model_(model) {
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
     if (!is_one_sided(model.foundations[i])) continue;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -16,7 +16,7 @@ namespace snapthrough {
 /// joined; the whole range for a bilateral foundation.
 /// @param depth least penetration over the structure's length that counts as contact, >= 0
 [[nodiscard]] std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
-                                                                   const Model& model,
+                                                                   const ResolvedModel& model,
                                                                    const Eigen::VectorXd& y, int foundation,
                                                                    double depth = 0.0);
 
@@ -25,7 +25,7 @@ namespace snapthrough {
 class ContactZones {
  public:
   /// @param structure, model kept by reference; must outlive this object
-  ContactZones(const Structure& structure, const Model& model);
+  ContactZones(const Structure& structure, const ResolvedModel& model);
 
   /// Ids of the counted supports, in the order of the counts; empty: no support is one-sided.
   [[nodiscard]] const std::vector<std::string>& ids() const { return ids_; }
@@ -34,7 +34,7 @@ class ContactZones {
 
  private:
   const Structure& structure_;
-  const Model& model_;
+  const ResolvedModel& model_;
   std::vector<int> foundations_;
   std::vector<std::size_t> springs_;
   std::vector<std::string> ids_;

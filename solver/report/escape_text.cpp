@@ -48,7 +48,7 @@ double distance(Point a, Point b) { return std::hypot(a[0] - b[0], a[1] - b[1]);
 /// The members that move most in an escape; lengths over the longest member's, relative to the first node.
 class MovingPart {
  public:
-  MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion);
+  MovingPart(const ResolvedModel& model, const RigidParts& parts, const VectorXd& motion);
 
   /// Ids of the moving members.
   [[nodiscard]] std::string members() const;
@@ -57,14 +57,14 @@ class MovingPart {
 
  private:
   [[nodiscard]] Point end(std::size_t member, bool start) const {
-    const Member& m = model_.members[member];
-    return parts_.place(parts_.node(start ? m.start : m.end));
+    const ResolvedMember& m = model_.members[member];
+    return parts_.place(start ? m.start : m.end);
   }
   [[nodiscard]] double size_of(std::size_t member, const BodyMotion& motion) const;
   [[nodiscard]] bool moves_with(std::size_t member, const BodyMotion& motion) const;
   [[nodiscard]] std::string place_text(Point point) const;
 
-  const Model& model_;
+  const ResolvedModel& model_;
   const RigidParts& parts_;
   double extent_ = 0.0;
   std::vector<BodyMotion> motions_;  ///< one per member
@@ -73,7 +73,7 @@ class MovingPart {
   std::vector<std::size_t> members_;
 };
 
-MovingPart::MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion)
+MovingPart::MovingPart(const ResolvedModel& model, const RigidParts& parts, const VectorXd& motion)
     : model_(model), parts_(parts) {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-low[0], -low[1]};
@@ -156,48 +156,49 @@ std::string MovingPart::motion() const {
          rounded(cleaned(largest_.displacement[1])) + ")";
 }
 
-std::string place_of_load(const Location& at) {
-  return at.node.empty() ? "on member \"" + at.member + "\"" : "at node \"" + at.node + "\"";
-}
-
-std::string name_of(const Load& load) {
+std::string name_of(const ResolvedModel& model, const ResolvedLoad& load) {
   struct Namer {
-    std::string operator()(const PointLoad& l) const { return "the point load " + place_of_load(l.at); }
-    std::string operator()(const DistributedLoad& l) const {
-      return "the distributed load on member \"" + l.member + "\"";
+    std::string operator()(const ResolvedPointLoad& l) const {
+      if (l.at.is_on_member()) return "the point load on " + of(l.at.member);
+      return "the point load at node \"" + model.nodes[static_cast<std::size_t>(l.at.node)].id + "\"";
     }
-    std::string operator()(const PressureLoad& l) const {
-      return "the pressure on member \"" + l.member + "\"";
+    std::string operator()(const ResolvedDistributedLoad& l) const {
+      return "the distributed load on " + of(l.member);
     }
-    std::string operator()(const InitialStrain& l) const {
-      return "the initial strain of member \"" + l.member + "\"";
+    std::string operator()(const ResolvedPressureLoad& l) const { return "the pressure on " + of(l.member); }
+    std::string operator()(const ResolvedInitialStrain& l) const {
+      return "the initial strain of " + of(l.member);
     }
     std::string operator()(const SelfWeight&) const { return "the self weight"; }
-    std::string operator()(const TemperatureLoad& l) const {
-      return "the temperature of member \"" + l.member + "\"";
+    std::string operator()(const ResolvedTemperatureLoad& l) const {
+      return "the temperature of " + of(l.member);
     }
+    [[nodiscard]] std::string of(int member) const {
+      return "member \"" + model.members[static_cast<std::size_t>(member)].id + "\"";
+    }
+    const ResolvedModel& model;
   };
-  return std::visit(Namer{}, load);
+  return std::visit(Namer{model}, load);
 }
 
 /// Name of the load that does most work on the motion.
 std::string driver(const RigidParts& parts, const Escape& escape) {
   double most = 0.0;
   std::string name = "the loads";
-  for (const Load& load : parts.model().loads) {
+  for (const ResolvedLoad& load : parts.model().loads) {
     const double factor =
         pattern_of(load) == Pattern::constant ? escape.actions.constant : escape.actions.proportional;
     const double work = factor * value_of(work_of(parts, load).row, escape.motion);
     if (work <= most) continue;
     most = work;
-    name = name_of(load);
+    name = name_of(parts.model(), load);
   }
   return name;
 }
 
 }  // namespace
 
-std::string motion_of_escape(const Model& model, const FreeMotions& motions, const Escape& escape) {
+std::string motion_of_escape(const ResolvedModel& model, const FreeMotions& motions, const Escape& escape) {
   const MovingPart part(model, motions.parts(), escape.motion);
   return part.members() + " can " + part.motion();
 }
@@ -206,7 +207,7 @@ std::string driver_of_escape(const FreeMotions& motions, const Escape& escape) {
   return driver(motions.parts(), escape);
 }
 
-std::string escape_text(const Model& model, const FreeMotions& motions, const Escape& escape) {
+std::string escape_text(const ResolvedModel& model, const FreeMotions& motions, const Escape& escape) {
   const MovingPart part(model, motions.parts(), escape.motion);
   const std::string motion = part.members() + " can " + part.motion() + ": no support resists this, ";
   if (escape.driven) return motion + "and " + driver(motions.parts(), escape) + " drives it";

@@ -8,11 +8,10 @@
 #include <utility>
 
 #include "solver/discrete/element_reader.h"
-#include "solver/model/id_index.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/rod_state.h"
-#include "solver/support/rods.h"
+#include "solver/resolve/rods.h"
 
 namespace snapthrough {
 
@@ -28,7 +27,7 @@ struct ModeLimits {
   static constexpr int points_per_element = 8;       ///< points of the spline through a mode
 };
 
-MemberMode member_mode(const Structure& structure, const Model& model, std::size_t member,
+MemberMode member_mode(const Structure& structure, const ResolvedModel& model, std::size_t member,
                        const Eigen::VectorXd& mode, int points) {
   const double L = structure.scales.length;
   MemberMode out;
@@ -45,18 +44,18 @@ MemberMode member_mode(const Structure& structure, const Model& model, std::size
   return out;
 }
 
-/// Nodes at the start and at the end of a member or rod.
-std::array<std::string, 2> ends_of(const Model& model, const std::string& id) {
-  for (const Member& member : model.members)
+/// Indices of the nodes at the start and at the end of a member or rod.
+std::array<int, 2> ends_of(const ResolvedModel& model, const std::string& id) {
+  for (const ResolvedMember& member : model.members)
     if (member.id == id) return {member.start, member.end};
-  const auto is_rod = [&id](const Spring& spring) { return spring.rod && spring.id == id; };
-  const Spring& rod = *std::find_if(model.springs.begin(), model.springs.end(), is_rod);
+  const auto is_rod = [&id](const ResolvedSpring& spring) { return spring.rod && spring.id == id; };
+  const ResolvedSpring& rod = *std::find_if(model.springs.begin(), model.springs.end(), is_rod);
   return {rod.at.node, rod.to->node};
 }
 
 }  // namespace
 
-Mode mode_displacements(const Structure& structure, const Model& model, const Eigen::VectorXd& mode,
+Mode mode_displacements(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& mode,
                         int points) {
   Mode out;
   for (std::size_t m = 0; m < model.members.size(); ++m)
@@ -98,14 +97,14 @@ double scale_to_largest(std::span<Mode> parts) {
   return scale;
 }
 
-std::vector<EffectiveLength> effective_lengths(const Model& model, const std::vector<double>& lengths,
+std::vector<EffectiveLength> effective_lengths(const ResolvedModel& model, const std::vector<double>& lengths,
                                                const std::vector<double>& compressions) {
   const double largest = *std::max_element(compressions.begin(), compressions.end());
   std::vector<EffectiveLength> out;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     EffectiveLength& one = out.emplace_back();
     one.id = model.members[m].id;
-    const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const AlongMember& EI = model.sections[model.members[m].section].EI;
     if (!(compressions[m] > ModeLimits::small_compression * largest) || EI.varies()) continue;
     one.length = std::numbers::pi * std::sqrt(EI.constant / compressions[m]);
     one.ratio = *one.length / lengths[m];
@@ -117,7 +116,7 @@ std::vector<EffectiveLength> effective_lengths(const Model& model, const std::ve
   return out;
 }
 
-std::string motion_text(const Mode& mode, const Model& model) {
+std::string motion_text(const Mode& mode, const ResolvedModel& model) {
   double largest = 0.0;
   std::size_t moved = 0;  // index of the member
   std::size_t place = 0;
@@ -134,8 +133,11 @@ std::string motion_text(const Mode& mode, const Model& model) {
   const MemberMode& along = mode.members[moved];
   std::string where = "s = " + rounded(along.s[place]) + " of member \"" + along.id + "\"";
   const auto [start, end] = ends_of(model, along.id);
-  if (place == 0) where = "node \"" + start + "\"";
-  if (place + 1 == along.s.size()) where = "node \"" + end + "\"";
+  const auto named = [&model](int node) {
+    return "node \"" + model.nodes[static_cast<std::size_t>(node)].id + "\"";
+  };
+  if (place == 0) where = named(start);
+  if (place + 1 == along.s.size()) where = named(end);
   const auto component = [largest](double value) {
     return rounded(std::abs(value) < Rounding::motion * largest ? 0.0 : value);
   };
@@ -143,7 +145,7 @@ std::string motion_text(const Mode& mode, const Model& model) {
          component(along.v[place]) + ")";
 }
 
-std::optional<std::size_t> member_that_buckles(const Structure& structure, const Model& model,
+std::optional<std::size_t> member_that_buckles(const Structure& structure, const ResolvedModel& model,
                                                const Eigen::VectorXd& mode) {
   const int p = structure.mesh.order;
   const CollocationRule& rule = CollocationRule::of(p);
@@ -151,8 +153,7 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
   std::vector<double> energy(model.members.size(), 0.0);
   for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
     const auto member = static_cast<std::size_t>(structure.mesh.elements[e].member);
-    const Section& section =
-        model.sections[static_cast<std::size_t>(index_of(model.sections, model.members[member].section))];
+    const Section& section = model.sections[static_cast<std::size_t>(model.members[member].section)];
     const double h = length_of_element(structure, static_cast<int>(e));
     const auto forces = mode.segment(structure.dofs[e].s, 3 * p);
     const MeshElement& cell = structure.mesh.elements[e];
@@ -171,7 +172,7 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
   return static_cast<std::size_t>(most - energy.begin());
 }
 
-std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,
+std::vector<CubicSpline> normal_offsets(const Structure& structure, const ResolvedModel& model,
                                         const Eigen::VectorXd& mode, double amplitude) {
   std::vector<std::vector<double>> s(model.members.size());
   std::vector<std::vector<double>> w(model.members.size());

@@ -37,7 +37,7 @@ MatrixXd reduced(MatrixXd motions) {
   return motions;
 }
 
-NeutralMotion told(const Structure& structure, const Model& model, const Eigen::VectorXd& motion) {
+NeutralMotion told(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& motion) {
   double displaced = 0.0;
   for (int j = 0; j < structure.first_ground; ++j)
     displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
@@ -62,7 +62,7 @@ NeutralMotion told(const Structure& structure, const Model& model, const Eigen::
 
 }  // namespace
 
-std::vector<NeutralMotion> neutral_motions(const Structure& structure, const Model& model,
+std::vector<NeutralMotion> neutral_motions(const Structure& structure, const ResolvedModel& model,
                                            const SharedHolds& holds) {
   std::vector<NeutralMotion> out;
   if (!holds) return out;

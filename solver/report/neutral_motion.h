@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
 #include "solver/problem/holds.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -15,14 +15,15 @@ namespace snapthrough {
 /// nonzero in one motion only, so that a translation is reported as such.
 /// @param holds null: no motions
 /// @return motions without branch and load factors
-[[nodiscard]] std::vector<NeutralMotion> neutral_motions(const Structure& structure, const Model& model,
+[[nodiscard]] std::vector<NeutralMotion> neutral_motions(const Structure& structure,
+                                                         const ResolvedModel& model,
                                                          const SharedHolds& holds);
 
 /// @brief Records the load factor range in which motions are free along a path.
 class NeutralMotionLog {
  public:
   /// @param structure, model, out kept by reference; must outlive this object
-  NeutralMotionLog(const Structure& structure, const Model& model, std::vector<NeutralMotion>& out)
+  NeutralMotionLog(const Structure& structure, const ResolvedModel& model, std::vector<NeutralMotion>& out)
       : structure_(structure), model_(model), out_(out) {}
 
   /// Starts a branch; motions of the previous branch end.
@@ -36,7 +37,7 @@ class NeutralMotionLog {
 
  private:
   const Structure& structure_;
-  const Model& model_;
+  const ResolvedModel& model_;
   std::vector<NeutralMotion>& out_;
   int branch_ = 0;
   SharedHolds holds_;  ///< holds at the last point

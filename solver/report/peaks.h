@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "solver/model/model.h"
 #include "solver/numeric/rounding.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {

@@ -49,7 +49,7 @@ void fail(Result& result, const char* code, const std::string& detail) {
   result.summary.message = detail;
 }
 
-Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
+Mode mode_at(const Structure& structure, const ResolvedModel& model, EquilibriumProblem& problem,
              const CriticalEvent& event, const Analysis& analysis) {
   Mode mode =
       mode_displacements(structure, model, mode_of(problem, event), analysis.output.points_per_member);

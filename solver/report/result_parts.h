@@ -7,17 +7,17 @@
 #include "solver/discrete/structure.h"
 #include "solver/events/critical_event.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
 #include "solver/path/path_point.h"
 #include "solver/problem/equilibrium_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
 
 /// @brief Mode of a critical point at the requested points of each member.
 /// @param problem problem of `structure`; factorised again
-[[nodiscard]] Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
-                           const CriticalEvent& event, const Analysis& analysis);
+[[nodiscard]] Mode mode_at(const Structure& structure, const ResolvedModel& model,
+                           EquilibriumProblem& problem, const CriticalEvent& event, const Analysis& analysis);
 
 /// Adds the steps, corrections and factorisations of a path to the diagnostics of a result, and keeps the
 /// larger of their largest residuals.

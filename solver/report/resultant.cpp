@@ -5,7 +5,7 @@
 #include <cstddef>
 
 namespace snapthrough {
-RigidMotions::RigidMotions(const Structure& structure, const Model& model, const Eigen::VectorXd& y)
+RigidMotions::RigidMotions(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y)
     : structure_(structure),
       x_(Eigen::VectorXd::Zero(structure.size)),
       y_(Eigen::VectorXd::Zero(structure.size)),

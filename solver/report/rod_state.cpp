@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "solver/model/id_index.h"
-
 namespace snapthrough {
 
 using Eigen::Vector3d;
@@ -29,8 +27,8 @@ void set_peaks(MemberState& rod) {
 
 }  // namespace
 
-MemberMode rod_mode(const Structure& structure, const Model& model, std::size_t spring, const VectorXd& mode,
-                    int points) {
+MemberMode rod_mode(const Structure& structure, const ResolvedModel& model, std::size_t spring,
+                    const VectorXd& mode, int points) {
   const NodeSpring rod = rod_of(structure, model, spring);
   const double L = structure.scales.length;
   const Vector3d from = displacement_of(mode, rod.node);
@@ -48,16 +46,16 @@ MemberMode rod_mode(const Structure& structure, const Model& model, std::size_t 
   return out;
 }
 
-MemberState rod_state(const Structure& structure, const Model& model, std::size_t spring, const VectorXd& y,
-                      int points) {
+MemberState rod_state(const Structure& structure, const ResolvedModel& model, std::size_t spring,
+                      const VectorXd& y, int points) {
   const NodeSpring rod = rod_of(structure, model, spring);
   const bool is_linear = structure.geometry == Geometry::linear;
   const SpringMotion motion = rod.motion(y, is_linear);
   const double force = -in_users_sense(rod.sense, structure.scales.force * rod.law.reaction(motion.w));
   const Vector3d turned = rod.sense * motion.gradient;
   const Vector3d along = rod.sense * rod.direction();
-  const Node& start = model.nodes[index_of(model.nodes, model.springs[spring].at.node)];
-  const Node& end = model.nodes[index_of(model.nodes, model.springs[spring].to->node)];
+  const Node& start = model.nodes[model.springs[spring].at.node];
+  const Node& end = model.nodes[model.springs[spring].to->node];
   MemberMode moved = rod_mode(structure, model, spring, y, points);
   MemberState out;
   out.id = moved.id;

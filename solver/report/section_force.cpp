@@ -14,7 +14,7 @@ using Vec2 = std::array<double, 2>;
 
 }  // namespace
 
-SectionForces::SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+SectionForces::SectionForces(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
                              double lambda, const std::vector<LayerState>& layers, int element)
     : structure_(structure),
       model_(model),
@@ -47,19 +47,17 @@ void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {
 }
 
 void SectionForces::add_loads(const Eigen::VectorXd& y, double proportional, double constant) {
-  for (const Load& load : model_.loads) {
+  for (const ResolvedLoad& load : model_.loads) {
     const Pattern pattern = std::visit([](const auto& l) { return l.pattern; }, load);
     add_load(load, y, pattern == Pattern::proportional ? proportional : constant);
   }
 }
 
-SectionForces::PointAction SectionForces::point_force(const PointLoad& load, double xi,
+SectionForces::PointAction SectionForces::point_force(const ResolvedPointLoad& load, double xi,
                                                       const Eigen::VectorXd& y, double factor) const {
   const Scales& scales = structure_.scales;
   const auto displacement = [&](const std::array<double, 3>& row) {
-    return structure_.geometry == Geometry::linear
-               ? 0.0
-               : displacement_row(structure_, model_, load.at, row).dot(y);
+    return structure_.geometry == Geometry::linear ? 0.0 : displacement_row(structure_, load.at, row).dot(y);
   };
   const double angle = load.follows ? displacement({0.0, 0.0, 1.0}) : 0.0;
   const Vec2 force = global_force(LoadAxes::member, load.force, angle);
@@ -71,20 +69,21 @@ SectionForces::PointAction SectionForces::point_force(const PointLoad& load, dou
   return {xi, {x, z, moment}};
 }
 
-void SectionForces::add_load(const Load& load, const Eigen::VectorXd& y, double factor) {
-  const std::string& member = model_.members[cell_.member].id;
+void SectionForces::add_load(const ResolvedLoad& load, const Eigen::VectorXd& y, double factor) {
+  const int member = cell_.member;
   const Scales& scales = structure_.scales;
-  if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && point->at.member == member) {
+  if (const auto* point = std::get_if<ResolvedPointLoad>(&load);
+      point != nullptr && point->at.member == member) {
     const MeshPlace place = place_of(structure_.mesh, cell_.member, point->at.fraction);
     if (place.element == element_) {
       points_.push_back(point_force(*point, place.xi, y, factor));
     }
   }
-  if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member)
+  if (const auto* d = std::get_if<ResolvedDistributedLoad>(&load); d != nullptr && d->member == member)
     add_dead(line_load(*d), factor);
   if (const auto* weight = std::get_if<SelfWeight>(&load))
-    add_dead(weight_of(model_, model_.members[cell_.member], *weight), factor);
-  if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == member) {
+    add_dead(weight_of(model_, member, *weight), factor);
+  if (const auto* p = std::get_if<ResolvedPressureLoad>(&load); p != nullptr && p->member == member) {
     const double sense = (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor);
     const double from = sense * value_at(p->value, p->value_along, cell_.from);
     const double to = sense * value_at(p->value, p->value_along, cell_.to);
@@ -148,8 +147,8 @@ void SectionForces::add_lumped(const FoundationHere& foundation) {
 
 void SectionForces::add_springs(const Eigen::VectorXd& y) {
   for (std::size_t i = 0; i < model_.springs.size(); ++i) {
-    const Location& at = model_.springs[i].at;
-    if (at.member != model_.members[cell_.member].id) continue;
+    const ResolvedLocation& at = model_.springs[i].at;
+    if (at.member != cell_.member) continue;
     const MeshPlace place = place_of(structure_.mesh, cell_.member, at.fraction);
     if (place.element != element_) continue;
     // a stop at the end of a member acts on the node

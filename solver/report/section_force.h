@@ -10,8 +10,8 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/layer_state.h"
 #include "solver/discrete/structure.h"
-#include "solver/model/member_loads.h"
-#include "solver/model/model.h"
+#include "solver/resolve/member_loads.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -27,8 +27,8 @@ class SectionForces {
  public:
   /// @param lambda scaled load factor of the state y
   /// @param layers see layer_states(); not used after construction
-  SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
-                const std::vector<LayerState>& layers, int element);
+  SectionForces(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
+                double lambda, const std::vector<LayerState>& layers, int element);
 
   /// (force x, force y, moment) at xi in [0, 1] of the part beyond xi on the part before it, scaled.
   [[nodiscard]] std::array<double, 3> at(double xi) const;
@@ -72,9 +72,9 @@ class SectionForces {
   };
 
   void add_loads(const Eigen::VectorXd& y, double proportional, double constant);
-  void add_load(const Load& load, const Eigen::VectorXd& y, double factor);
+  void add_load(const ResolvedLoad& load, const Eigen::VectorXd& y, double factor);
   /// Action of a point load on the member of the element, at the place xi.
-  [[nodiscard]] PointAction point_force(const PointLoad& load, double xi, const Eigen::VectorXd& y,
+  [[nodiscard]] PointAction point_force(const ResolvedPointLoad& load, double xi, const Eigen::VectorXd& y,
                                         double factor) const;
   void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
@@ -104,7 +104,7 @@ class SectionForces {
   [[nodiscard]] std::vector<double> breaks_beyond(double xi) const;
 
   const Structure& structure_;
-  const Model& model_;
+  const ResolvedModel& model_;
   int element_;
   const MeshElement& cell_;
   ElementReader reader_;

@@ -21,7 +21,7 @@ bool points_are_not_polished(const Analysis& analysis) {
          !output.extremes;
 }
 
-std::vector<std::string> skipped_work(const Model& model, const Analysis& analysis) {
+std::vector<std::string> skipped_work(const ResolvedModel& model, const Analysis& analysis) {
   std::vector<std::string> out;
   add_bilateral("foundation", model.foundations, out);
   add_bilateral("spring", model.springs, out);

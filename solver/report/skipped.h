@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -15,6 +15,6 @@ namespace snapthrough {
 [[nodiscard]] bool points_are_not_polished(const Analysis& analysis);
 
 /// @brief Sentences "what: why" for `diagnostics.skipped`, without those of the mesh.
-[[nodiscard]] std::vector<std::string> skipped_work(const Model& model, const Analysis& analysis);
+[[nodiscard]] std::vector<std::string> skipped_work(const ResolvedModel& model, const Analysis& analysis);
 
 }  // namespace snapthrough

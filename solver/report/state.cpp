@@ -10,14 +10,13 @@
 #include "solver/discrete/foundation_springs.h"
 #include "solver/discrete/layer_state.h"
 #include "solver/geometry/stress_free_axis.h"
-#include "solver/model/id_index.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/contact.h"
 #include "solver/report/peaks.h"
 #include "solver/report/rod_state.h"
 #include "solver/report/section_force.h"
 #include "solver/report/support_state.h"
-#include "solver/support/rods.h"
+#include "solver/resolve/rods.h"
 
 namespace snapthrough {
 namespace {
@@ -25,8 +24,8 @@ namespace {
 /// Reads displacements and section forces of one member in a state.
 class MemberReader {
  public:
-  MemberReader(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
-               const std::vector<LayerState>& layers, int member)
+  MemberReader(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
+               double lambda, const std::vector<LayerState>& layers, int member)
       : structure_(structure), axis_(*structure.stress_free[member]), member_(member) {
     const int first = structure.mesh.first[static_cast<std::size_t>(member)];
     const int end = structure.mesh.first[static_cast<std::size_t>(member) + 1];
@@ -138,7 +137,7 @@ MemberState member_state(const MemberReader& reader, const Structure& structure,
 }
 
 /// Mesh place of a fraction, on an element within the foundation's range.
-MeshPlace place_under(const Mesh& mesh, int member, const Foundation& foundation, double fraction) {
+MeshPlace place_under(const Mesh& mesh, int member, const ResolvedFoundation& foundation, double fraction) {
   const MeshPlace place = place_of(mesh, member, fraction);
   const bool is_beyond = place.xi == 0.0 && place.element > mesh.first[static_cast<std::size_t>(member)] &&
                          fraction >= foundation.range[1] - kOnePlace;
@@ -148,12 +147,12 @@ MeshPlace place_under(const Mesh& mesh, int member, const Foundation& foundation
 /// Reads the reaction of one foundation along its range in a state.
 class FoundationReader {
  public:
-  FoundationReader(const Structure& structure, const Model& model, const Eigen::VectorXd& y, int index,
-                   const std::vector<std::array<double, 2>>& contact)
+  FoundationReader(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
+                   int index, const std::vector<std::array<double, 2>>& contact)
       : structure_(structure),
         y_(y),
         foundation_(model.foundations[static_cast<std::size_t>(index)]),
-        member_(index_of(model.members, foundation_.member)),
+        member_(foundation_.member),
         law_(structure.foundation_laws[static_cast<std::size_t>(index)]),
         contact_(contact) {}
 
@@ -176,7 +175,7 @@ class FoundationReader {
 
   const Structure& structure_;
   const Eigen::VectorXd& y_;
-  const Foundation& foundation_;
+  const ResolvedFoundation& foundation_;
   int member_;
   const FoundationLaw& law_;
   const std::vector<std::array<double, 2>>& contact_;
@@ -220,9 +219,9 @@ PeakRange FoundationReader::peaks(const FoundationState& known) const {
   return search.range(0, values_at);
 }
 
-FoundationState foundation_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                                 int index, int points) {
-  const Foundation& foundation = model.foundations[static_cast<std::size_t>(index)];
+FoundationState foundation_state(const Structure& structure, const ResolvedModel& model,
+                                 const Eigen::VectorXd& y, int index, int points) {
+  const ResolvedFoundation& foundation = model.foundations[static_cast<std::size_t>(index)];
   FoundationState out;
   out.id = foundation.id;
   out.contact = contact_intervals(structure, model, y, index);
@@ -241,7 +240,7 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
 
 }  // namespace
 
-std::vector<MemberState> member_states(const Structure& structure, const Model& model,
+std::vector<MemberState> member_states(const Structure& structure, const ResolvedModel& model,
                                        const Eigen::VectorXd& y, double lambda, int points) {
   std::vector<MemberState> out;
   const std::vector<LayerState> layers = layer_states(structure, y);
@@ -253,8 +252,8 @@ std::vector<MemberState> member_states(const Structure& structure, const Model& 
   return out;
 }
 
-State make_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
-                 int points) {
+State make_state(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
+                 double lambda, int points) {
   State state;
   state.load_factor = lambda / structure.scales.load;
   state.members = member_states(structure, model, y, lambda, points);
@@ -264,7 +263,8 @@ State make_state(const Structure& structure, const Model& model, const Eigen::Ve
   return state;
 }
 
-double imbalance(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda) {
+double imbalance(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
+                 double lambda) {
   State forces;
   return add_forces_on_structure(structure, model, y, lambda, forces);
 }
@@ -275,13 +275,13 @@ std::string imbalance_text(double load_factor, double left) {
          " of the largest of them";
 }
 
-std::vector<double> contact_fractions(const Structure& structure, const Model& model,
+std::vector<double> contact_fractions(const Structure& structure, const ResolvedModel& model,
                                       const Eigen::VectorXd& y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
-    const Foundation& foundation = model.foundations[i];
-    const double length = structure.axes[index_of(model.members, foundation.member)]->length() *
-                          (foundation.range[1] - foundation.range[0]);
+    const ResolvedFoundation& foundation = model.foundations[i];
+    const double length =
+        structure.axes[foundation.member]->length() * (foundation.range[1] - foundation.range[0]);
     double contact = 0.0;
     for (const auto& interval : contact_intervals(structure, model, y, static_cast<int>(i)))
       contact += interval[1] - interval[0];

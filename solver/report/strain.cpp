@@ -1,5 +1,4 @@
 #include "solver/report/strain.h"
-#include "solver/model/id_index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +6,9 @@
 
 namespace snapthrough {
 
-StrainGauge::StrainGauge(const Structure& structure, const Model& model)
+StrainGauge::StrainGauge(const Structure& structure, const ResolvedModel& model)
     : structure_(structure), model_(model) {
-  for (const Member& member : model.members)
-    sections_.push_back(&model.sections[index_of(model.sections, member.section)]);
+  for (const ResolvedMember& member : model.members) sections_.push_back(&model.sections[member.section]);
 }
 
 StrainGauge::Compliance StrainGauge::compliance_at(const MeshElement& cell, double fraction) const {

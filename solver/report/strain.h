@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -34,7 +34,7 @@ struct LargestStrain {
 class StrainGauge {
  public:
   /// @param structure, model kept by reference; must outlive this object
-  StrainGauge(const Structure& structure, const Model& model);
+  StrainGauge(const Structure& structure, const ResolvedModel& model);
   /// Replaces `largest` if a strain at y exceeds it; returns true in that case.
   [[nodiscard]] bool raise(const Eigen::VectorXd& y, LargestStrain& largest) const;
   /// Whether y is outside the theory: a fibre strain reaches 1 (compression to zero length), or an element
@@ -49,7 +49,7 @@ class StrainGauge {
   [[nodiscard]] Compliance compliance_at(const MeshElement& cell, double fraction) const;
 
   const Structure& structure_;
-  const Model& model_;
+  const ResolvedModel& model_;
   std::vector<const Section*> sections_;  ///< one per member
 };
 

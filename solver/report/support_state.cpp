@@ -12,7 +12,6 @@
 #include "solver/discrete/foundation_springs.h"
 #include "solver/discrete/layer_state.h"
 #include "solver/discrete/stops.h"
-#include "solver/model/id_index.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/resultant.h"
@@ -39,7 +38,8 @@ struct SpringForce {
   double rounding = 0.0;  ///< rounding of the force
 };
 
-SpringForce force_of(const Structure& structure, const Model& model, std::size_t index, const VectorXd& y) {
+SpringForce force_of(const Structure& structure, const ResolvedModel& model, std::size_t index,
+                     const VectorXd& y) {
   const SpringLaw& spring = structure.spring_laws[index];
   SpringForce out;
   SpringReading reading = reading_of(structure, model, index, y);
@@ -57,11 +57,11 @@ SpringForce force_of(const Structure& structure, const Model& model, std::size_t
 
 /// Adds the springs to the state, without those that stand for rods and follow the others; returns their
 /// forces on the nodes, in the problem's rows.
-VectorXd add_springs(const Structure& structure, const Model& model, const VectorXd& y,
+VectorXd add_springs(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
                      const RigidMotions& rigid, State& state, std::vector<Bearing>& bearings) {
   VectorXd on_nodes = VectorXd::Zero(3 * structure.nodes);
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
-    const Spring& spring = model.springs[i];
+    const ResolvedSpring& spring = model.springs[i];
     const SpringForce at = force_of(structure, model, i, y);
     const double sense = structure.spring_laws[i].sense;
     const double L = structure.scales.length;
@@ -77,7 +77,7 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
                                at.closed,
                                {}});
     }
-    if (!spring.at.node.empty())
+    if (!spring.at.is_on_member())
       for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
     else if (const SpringLaw& law = structure.spring_laws[i]; law.force_unknown >= 0)
       on_nodes.segment<3>(3 * static_cast<Eigen::Index>(node_of_stop(structure, model, spring))) -=
@@ -99,11 +99,12 @@ VectorXd held_forces(const Structure& structure, ElementWork& elements, const Ve
 }
 
 /// Adds the supports to the state; returns their forces on the nodes, in the problem's rows.
-VectorXd add_supports(const Structure& structure, const Model& model, const VectorXd& held, State& state) {
+VectorXd add_supports(const Structure& structure, const ResolvedModel& model, const VectorXd& held,
+                      State& state) {
   const double F = structure.scales.force;
   VectorXd reactions = VectorXd::Zero(structure.size);
-  for (const Support& support : model.supports) {
-    const int node = index_of(model.nodes, support.node);
+  for (const ResolvedSupport& support : model.supports) {
+    const int node = support.node;
     const NodeSupport& held_by = structure.supports[node];
     const std::array<std::array<double, 2>, 2> axes{{{std::cos(held_by.angle), std::sin(held_by.angle)},
                                                      {-std::sin(held_by.angle), std::cos(held_by.angle)}}};
@@ -113,7 +114,7 @@ VectorXd add_supports(const Structure& structure, const Model& model, const Vect
       for (int k = 0; k < 2; ++k) reactions[3 * node + k] += along * axes[c][k];
     }
     if (held_by.fixed[2]) reactions[3 * node + 2] = held[3 * node + 2];
-    state.supports.push_back({support.node, F * reactions[3 * node], F * reactions[3 * node + 1],
+    state.supports.push_back({model.nodes[node].id, F * reactions[3 * node], F * reactions[3 * node + 1],
                               F * structure.scales.length * reactions[3 * node + 2]});
   }
   return reactions;
@@ -173,7 +174,7 @@ void add_layer(const Structure& structure, const FoundationLaw& foundation, cons
   }
 }
 
-void add_foundations(const Structure& structure, const Model& model, const VectorXd& y,
+void add_foundations(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
                      const RigidMotions& rigid, std::vector<Bearing>& bearings) {
   const std::size_t first = bearings.size();
   bearings.resize(first + model.foundations.size());
@@ -270,7 +271,7 @@ double relative_imbalance(const RigidMotions& rigid, double least, const VectorX
 
 }  // namespace
 
-double add_forces_on_structure(const Structure& structure, const Model& model, const VectorXd& y,
+double add_forces_on_structure(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
                                double lambda, State& state) {
   const RigidMotions rigid(structure, model, y);
   const std::unique_ptr<ElementWork> elements = structure.elements->make_work();

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -19,7 +19,7 @@ namespace snapthrough {
 /// @param state with the model's foundations in their order
 /// @return what is left of the sum of all forces and moments on the structure, over the largest force and
 /// the largest moment that acts on it; zero where nothing acts
-double add_forces_on_structure(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
-                               double lambda, State& state);
+double add_forces_on_structure(const Structure& structure, const ResolvedModel& model,
+                               const Eigen::VectorXd& y, double lambda, State& state);
 
 }  // namespace snapthrough

@@ -18,7 +18,7 @@ std::optional<double> along_path(const CriticalEvent& event, const BorderedPoint
 
 }  // namespace
 
-std::optional<KoiterCoefficients> koiter_coefficients(const Model& model, const Structure& structure,
+std::optional<KoiterCoefficients> koiter_coefficients(const ResolvedModel& model, const Structure& structure,
                                                       const LocatedPoint& at, int points,
                                                       int& factorisations) {
   const CriticalEvent& event = at.event;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 #include "solver/sensitivity/exact_point.h"
 
@@ -18,7 +18,7 @@ namespace snapthrough {
 /// @return empty at other points, at multiple bifurcations, where contact makes the tangent discontinuous,
 /// with follower pressure on a free end (nonsymmetric tangent), and when the point cannot be solved to
 /// rounding
-[[nodiscard]] std::optional<KoiterCoefficients> koiter_coefficients(const Model& model,
+[[nodiscard]] std::optional<KoiterCoefficients> koiter_coefficients(const ResolvedModel& model,
                                                                     const Structure& structure,
                                                                     const LocatedPoint& at, int points,
                                                                     int& factorisations);

@@ -39,9 +39,9 @@ struct DifferenceLimits {
 class VariationRate {
  public:
   /// @param here equations of the unchanged structure
-  VariationRate(const Model& model, const Structure& structure, const CriticalEvent& event,
+  VariationRate(const ResolvedModel& model, const Structure& structure, const CriticalEvent& event,
                 const CriticalSensitivity& point, const MatrixXd& here, const Variation& variation,
-                const std::function<ModeOffsets(const Model&)>& offsets)
+                const std::function<ModeOffsets(const ResolvedModel&)>& offsets)
       : model_(model),
         structure_(structure),
         event_(event),
@@ -67,28 +67,29 @@ class VariationRate {
   [[nodiscard]] double mismatch(const Sides& at) const;
   [[nodiscard]] bool has_kink(double lambda) const;
 
-  const Model& model_;
+  const ResolvedModel& model_;
   const Structure& structure_;
   const CriticalEvent& event_;
   const CriticalSensitivity& point_;
   const MatrixXd& here_;
   const Variation& variation_;
-  const std::function<ModeOffsets(const Model&)>& offsets_;
+  const std::function<ModeOffsets(const ResolvedModel&)>& offsets_;
   double way_ = 0.0;     ///< 0: both senses; 1, -1: the value may only grow, or only fall
   Sides coarse_, fine_;  ///< equations with the best step and with half of it
 };
 
 /// Equations with another value at the point's state; empty when the model may not have that value.
 std::optional<MatrixXd> VariationRate::equations_at(double value) const {
-  const std::optional<Model> changed = variation_.model_at(value);
-  if (!changed) return std::nullopt;
+  const std::optional<Model> given = variation_.model_at(value);
+  if (!given) return std::nullopt;
+  const ResolvedModel changed = resolve(*given);
   ModeOffsets modes;
   try {
-    modes = offsets_(*changed);
+    modes = offsets_(changed);
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
-  const Structure structure = with_changed_model(structure_, model_, *changed, modes);
+  const Structure structure = with_changed_model(structure_, model_, changed, modes);
   if (structure.size != structure_.size) return std::nullopt;
   StructuralProblem problem(structure);
   problem.set_holds(event_.point.holds);
@@ -187,9 +188,10 @@ std::vector<Sensitivity> none(const std::vector<Variation>& variations, NoDeriva
 
 }  // namespace
 
-std::vector<Sensitivity> load_sensitivities(const Model& model, const std::vector<Variation>& variations,
+std::vector<Sensitivity> load_sensitivities(const ResolvedModel& model,
+                                            const std::vector<Variation>& variations,
                                             const Structure& structure, const LocatedPoint& at,
-                                            const std::function<ModeOffsets(const Model&)>& offsets,
+                                            const std::function<ModeOffsets(const ResolvedModel&)>& offsets,
                                             int& factorisations) {
   if (const auto reason = refusal(structure, at.event)) return none(variations, *reason);
   StructuralProblem problem(structure);

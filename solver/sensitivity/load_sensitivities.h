@@ -7,7 +7,7 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 #include "solver/sensitivity/exact_point.h"
 
@@ -24,7 +24,8 @@ namespace snapthrough {
 /// @param offsets mode imperfections of a changed model; may throw std::runtime_error when it lacks the modes
 /// @param factorisations incremented by the number of factorisations
 [[nodiscard]] std::vector<Sensitivity> load_sensitivities(
-    const Model& model, const std::vector<Variation>& variations, const Structure& structure,
-    const LocatedPoint& at, const std::function<ModeOffsets(const Model&)>& offsets, int& factorisations);
+    const ResolvedModel& model, const std::vector<Variation>& variations, const Structure& structure,
+    const LocatedPoint& at, const std::function<ModeOffsets(const ResolvedModel&)>& offsets,
+    int& factorisations);
 
 }  // namespace snapthrough

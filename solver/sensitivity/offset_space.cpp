@@ -140,7 +140,8 @@ VectorXd OffsetSpace::steepest(OffsetNorm norm, const VectorXd& gradient) const 
   return out / this->norm(norm, out);
 }
 
-std::vector<MemberOffsets> OffsetSpace::member_offsets(const Model& model, const VectorXd& offsets) const {
+std::vector<MemberOffsets> OffsetSpace::member_offsets(const ResolvedModel& model,
+                                                       const VectorXd& offsets) const {
   std::vector<MemberOffsets> out;
   for (std::size_t m = 0; m < lengths_.size(); ++m) {
     const VectorXd own = offsets.segment(static_cast<Index>(m) * kPoints, kPoints);

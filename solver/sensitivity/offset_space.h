@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/geometry/cubic_spline.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -34,7 +34,7 @@ class OffsetSpace {
   /// scaled to max |w| = 1 on the member.
   [[nodiscard]] Eigen::VectorXd steepest(OffsetNorm norm, const Eigen::VectorXd& gradient) const;
   /// @brief The offsets as they stand in a request, one entry per member.
-  [[nodiscard]] std::vector<MemberOffsets> member_offsets(const Model& model,
+  [[nodiscard]] std::vector<MemberOffsets> member_offsets(const ResolvedModel& model,
                                                           const Eigen::VectorXd& offsets) const;
 
  private:

@@ -70,10 +70,11 @@ MotionsAt motions_at(StructuralProblem& problem, const PathMetric& metric, const
 }
 
 /// Residual of the model with an offset at one point of a member, at a given state.
-VectorXd residual_with(const Model& model, const Structure& structure, const MemberOffsets& offsets,
-                       const ModeOffsets& modes, const MotionsAt& at, const SharedHolds& holds) {
-  Model changed = model;
-  changed.imperfections.emplace_back(PointsImperfection{offsets.member, offsets.offsets});
+VectorXd residual_with(const ResolvedModel& model, const Structure& structure,
+                       const ResolvedPointsImperfection& offset, const ModeOffsets& modes,
+                       const MotionsAt& at, const SharedHolds& holds) {
+  ResolvedModel changed = model;
+  changed.imperfections.emplace_back(offset);
   const Structure other = with_changed_model(structure, model, changed, modes);
   StructuralProblem problem(other);
   problem.set_holds(holds);
@@ -84,7 +85,7 @@ VectorXd residual_with(const Model& model, const Structure& structure, const Mem
 
 }  // namespace
 
-OffsetWorks offset_works(const Model& model, const Structure& structure, const LocatedPoint& at,
+OffsetWorks offset_works(const ResolvedModel& model, const Structure& structure, const LocatedPoint& at,
                          const OffsetSpace& space, const ModeOffsets& modes, int& factorisations) {
   const SharedHolds& holds = at.event.point.holds;
   StructuralProblem problem(structure);
@@ -98,7 +99,9 @@ OffsetWorks offset_works(const Model& model, const Structure& structure, const L
     const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * structure.axes[member]->length();
     const auto residual = [&](double offset) {
       const VectorXd one = offset * VectorXd::Unit(space.size(), i);
-      return residual_with(model, structure, space.member_offsets(model, one)[member], modes, here, holds);
+      const MemberOffsets offsets = space.member_offsets(model, one)[member];
+      return residual_with(model, structure, {{offsets.member, offsets.offsets}, static_cast<int>(member)},
+                           modes, here, holds);
     };
     const VectorXd change = (residual(step) - residual(-step)) / (2.0 * step);
     for (Index j = 0; j < here.motions.cols(); ++j)

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/sensitivity/exact_point.h"
 #include "solver/sensitivity/offset_space.h"
 
@@ -32,8 +32,8 @@ struct OffsetWorks {
 /// @param structure structure of `model` on which the point was found
 /// @param modes offsets of the model's mode imperfections
 /// @param factorisations incremented by the number of factorisations
-[[nodiscard]] OffsetWorks offset_works(const Model& model, const Structure& structure, const LocatedPoint& at,
-                                       const OffsetSpace& space, const ModeOffsets& modes,
-                                       int& factorisations);
+[[nodiscard]] OffsetWorks offset_works(const ResolvedModel& model, const Structure& structure,
+                                       const LocatedPoint& at, const OffsetSpace& space,
+                                       const ModeOffsets& modes, int& factorisations);
 
 }  // namespace snapthrough

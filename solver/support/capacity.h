@@ -2,7 +2,7 @@
 /// @file
 /// Capacities of supports.
 
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -16,6 +16,6 @@ template <class Support>
   return support.law && support.law->type != ReactionLaw::Type::linear;
 }
 
-[[nodiscard]] bool has_supports_with_capacity(const Model& model);
+[[nodiscard]] bool has_supports_with_capacity(const ResolvedModel& model);
 
 }  // namespace snapthrough

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "solver/geometry/axes.h"
-#include "solver/model/id_index.h"
 #include "solver/numeric/rounding.h"
 #include "solver/support/law.h"
 
@@ -29,17 +28,18 @@ double agreement(const Direction& a, const Direction& b) {
 }
 
 /// Direction of action of a spring; for a rotational spring a turning direction with the spring's sign.
-Direction action_of(const Spring& spring) {
+Direction action_of(const ResolvedSpring& spring) {
   const double sense = sense_of(spring.reaction);
   return spring.direction ? fixed_direction(*spring.direction, sense) : Direction{true, {}, sense};
 }
 
 /// Direction of action of a foundation; a fixed one on straight axes, for comparison with given directions.
-Direction action_of(const Model& model, const Member& member, const Foundation& foundation) {
+Direction action_of(const ResolvedModel& model, const ResolvedMember& member,
+                    const ResolvedFoundation& foundation) {
   const Direction direction = direction_of(foundation);
   if (!direction.turns || !std::holds_alternative<LineCurve>(member.curve)) return direction;
-  const Node& a = model.nodes[index_of(model.nodes, member.start)];
-  const Node& b = model.nodes[index_of(model.nodes, member.end)];
+  const Node& a = model.nodes[member.start];
+  const Node& b = model.nodes[member.end];
   return fixed_direction({-(b.y - a.y), b.x - a.x}, direction.sign);
 }
 
@@ -98,10 +98,10 @@ void append(Support support, double stiffness, bool glued, std::vector<Support>&
 
 class Joiner {
  public:
-  explicit Joiner(const Model& model) : model_(model) {
-    for (const Member& member : model.members) {
-      const Node& a = model.nodes[index_of(model.nodes, member.start)];
-      const Node& b = model.nodes[index_of(model.nodes, member.end)];
+  explicit Joiner(const ResolvedModel& model) : model_(model) {
+    for (const ResolvedMember& member : model.members) {
+      const Node& a = model.nodes[member.start];
+      const Node& b = model.nodes[member.end];
       span_ = std::max(span_, std::hypot(b.x - a.x, b.y - a.y));
     }
   }
@@ -109,7 +109,7 @@ class Joiner {
   /// Joins the supports; false when none are opposite.
   [[nodiscard]] bool join() {
     join_springs();
-    for (const Member& member : model_.members) join_foundations(member);
+    for (std::size_t m = 0; m < model_.members.size(); ++m) join_foundations(static_cast<int>(m));
     if (!joined_) return false;
     for (std::size_t i = 0; i < model_.springs.size(); ++i)
       if (!replaced_springs_[i]) springs_.push_back(model_.springs[i]);
@@ -117,8 +117,8 @@ class Joiner {
       if (!replaced_foundations_[i]) foundations_.push_back(model_.foundations[i]);
     return true;
   }
-  [[nodiscard]] Model take() {
-    Model out = model_;
+  [[nodiscard]] ResolvedModel take() {
+    ResolvedModel out = model_;
     out.springs = std::move(springs_);
     out.foundations = std::move(foundations_);
     return out;
@@ -134,18 +134,18 @@ class Joiner {
   }
   void join_springs();
   void join_springs_at(const std::vector<Touching>& place);
-  void join_foundations(const Member& member);
+  void join_foundations(int member);
   [[nodiscard]] bool join_foundations_on(std::array<double, 2> range,
                                          const std::vector<Touching>& foundations,
-                                         std::vector<Foundation>& out) const;
+                                         std::vector<ResolvedFoundation>& out) const;
 
-  const Model& model_;
+  const ResolvedModel& model_;
   double span_ = 0.0;
   bool joined_ = false;
   std::vector<bool> replaced_springs_ = std::vector<bool>(model_.springs.size(), false);
   std::vector<bool> replaced_foundations_ = std::vector<bool>(model_.foundations.size(), false);
-  std::vector<Spring> springs_;
-  std::vector<Foundation> foundations_;
+  std::vector<ResolvedSpring> springs_;
+  std::vector<ResolvedFoundation> foundations_;
 };
 
 /// Joins springs, sorted by place: nodes (with member ends), then positions inside members. Rotational
@@ -154,19 +154,18 @@ void Joiner::join_springs() {
   using Place = std::tuple<bool, bool, int, double>;  // rotational, at a member, index, fraction
   std::vector<std::pair<Place, Touching>> sorted;
   for (std::size_t i = 0; i < model_.springs.size(); ++i) {
-    const Spring& spring = model_.springs[i];
+    const ResolvedSpring& spring = model_.springs[i];
     if (spring.to || !touches(spring, spring.direction ? span_ : 1.0)) continue;
-    Place place{!spring.direction, !spring.at.member.empty(), 0, spring.at.fraction};
-    if (spring.at.member.empty()) {
-      place = {!spring.direction, false, index_of(model_.nodes, spring.at.node), 0.0};
+    Place place{!spring.direction, spring.at.is_on_member(), 0, spring.at.fraction};
+    if (!spring.at.is_on_member()) {
+      place = {!spring.direction, false, spring.at.node, 0.0};
     } else {
-      const int m = index_of(model_.members, spring.at.member);
+      const int m = spring.at.member;
       const bool at_start = spring.at.fraction <= kOnePlace;
       const bool at_end = spring.at.fraction >= 1.0 - kOnePlace;
       std::get<2>(place) = m;
       if (spring.direction && (at_start || at_end))
-        place = {false, false,
-                 index_of(model_.nodes, at_start ? model_.members[m].start : model_.members[m].end), 0.0};
+        place = {false, false, at_start ? model_.members[m].start : model_.members[m].end, 0.0};
     }
     sorted.push_back({place, {i, spring.stiffness, action_of(spring)}});
   }
@@ -197,18 +196,18 @@ void Joiner::join_springs_at(const std::vector<Touching>& place) {
 }
 
 /// Joins the foundations of a member on each part between the ends of their ranges.
-void Joiner::join_foundations(const Member& member) {
+void Joiner::join_foundations(int member) {
   std::vector<Touching> touching;
   std::vector<double> ends;
   for (std::size_t i = 0; i < model_.foundations.size(); ++i) {
-    const Foundation& foundation = model_.foundations[i];
-    if (foundation.member != member.id || !touches(foundation, span_)) continue;
-    touching.push_back({i, foundation.stiffness, action_of(model_, member, foundation)});
+    const ResolvedFoundation& foundation = model_.foundations[i];
+    if (foundation.member != member || !touches(foundation, span_)) continue;
+    touching.push_back({i, foundation.stiffness, action_of(model_, model_.members[member], foundation)});
     ends.insert(ends.end(), foundation.range.begin(), foundation.range.end());
   }
   if (touching.size() < 2) return;
   std::sort(ends.begin(), ends.end());
-  std::vector<Foundation> parts;
+  std::vector<ResolvedFoundation> parts;
   bool any = false;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
     if (ends[i + 1] - ends[i] > kOnePlace)
@@ -221,11 +220,11 @@ void Joiner::join_foundations(const Member& member) {
 
 /// Appends the supports on a part of a member; true when some were joined.
 bool Joiner::join_foundations_on(std::array<double, 2> range, const std::vector<Touching>& foundations,
-                                 std::vector<Foundation>& out) const {
+                                 std::vector<ResolvedFoundation>& out) const {
   const double middle = 0.5 * (range[0] + range[1]);
   std::vector<Touching> here;
   for (const Touching& foundation : foundations) {
-    const Foundation& whole = model_.foundations[foundation.number];
+    const ResolvedFoundation& whole = model_.foundations[foundation.number];
     if (whole.range[0] < middle && middle < whole.range[1]) here.push_back(foundation);
   }
   const auto put = [&](std::size_t position, double stiffness, bool glued) {
@@ -247,7 +246,7 @@ bool Joiner::join_foundations_on(std::array<double, 2> range, const std::vector<
 
 }  // namespace
 
-std::optional<Model> with_joined_supports(const Model& model) {
+std::optional<ResolvedModel> with_joined_supports(const ResolvedModel& model) {
   const auto one_sided = [](const auto& support) { return support.reaction != Reaction::bilateral; };
   if (std::none_of(model.springs.begin(), model.springs.end(), one_sided) &&
       std::none_of(model.foundations.begin(), model.foundations.end(), one_sided))

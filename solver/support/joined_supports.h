@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -19,6 +19,6 @@ namespace snapthrough {
 /// @return model with combined supports, for the equations only (ids and indices of supports differ); empty:
 /// no supports are opposite
 /// @pre the model passed check()
-[[nodiscard]] std::optional<Model> with_joined_supports(const Model& model);
+[[nodiscard]] std::optional<ResolvedModel> with_joined_supports(const ResolvedModel& model);
 
 }  // namespace snapthrough

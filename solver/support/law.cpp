@@ -154,7 +154,7 @@ SpringLaw law_of(const Spring& spring, const Scales& scales) {
   return out;
 }
 
-bool has_one_sided_supports(const Model& model) {
+bool has_one_sided_supports(const ResolvedModel& model) {
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
   return std::any_of(model.springs.begin(), model.springs.end(), one_sided) ||
          std::any_of(model.foundations.begin(), model.foundations.end(), one_sided);

@@ -8,8 +8,8 @@
 #include <limits>
 #include <memory>
 
-#include "solver/model/model.h"
 #include "solver/model/scales.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/support/ground_motion.h"
 #include "solver/support/reaction_curve.h"
 #include "solver/support/surface.h"
@@ -121,7 +121,7 @@ template <class Support>
   return support.reaction != Reaction::bilateral && initial_stiffness(support) > 0.0;
 }
 
-[[nodiscard]] bool has_one_sided_supports(const Model& model);
+[[nodiscard]] bool has_one_sided_supports(const ResolvedModel& model);
 
 /// Numbers of a foundation's law along its member, over their largest values.
 struct LawVariation {

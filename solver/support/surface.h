@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "solver/analysis/analyses.h"
-#include "solver/support/rods.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
 ModelFamily::ModelFamily(std::function<Model(double)> model, Analysis analysis, bool logarithmic, double from,
                          double to)
-    : model_([model = std::move(model)](double value) { return rods_as_springs(model(value)); }),
+    : model_([model = std::move(model)](double value) { return resolve(model(value)); }),
       analysis_(std::move(analysis)),
       logarithmic_(logarithmic),
       lowest_(coordinate_of(std::min(from, to))),
@@ -26,7 +26,7 @@ double ModelFamily::value_at(double t) const {
 }
 
 std::shared_ptr<FamilyMember> ModelFamily::at(double t) const {
-  Model model = model_(value_at(t));
+  ResolvedModel model = model_(value_at(t));
   Structure structure = with_changed_model(reference_->structure, reference_->model, model,
                                            mode_offsets(model, analysis_, reference_->structure.stop));
   if (structure.size != reference_->structure.size) return nullptr;

@@ -14,10 +14,10 @@ namespace snapthrough {
 
 /// Model, structure and equations for one value of the parameter.
 struct FamilyMember {
-  FamilyMember(Model model_of_value, Structure structure_of_value)
+  FamilyMember(ResolvedModel model_of_value, Structure structure_of_value)
       : model(std::move(model_of_value)), structure(std::move(structure_of_value)), problem(structure) {}
 
-  Model model;
+  ResolvedModel model;
   Structure structure;
   StructuralProblem problem;
 };
@@ -50,7 +50,7 @@ class ModelFamily {
   [[nodiscard]] std::shared_ptr<FamilyMember> at(double t) const;
 
  private:
-  std::function<Model(double)> model_;
+  std::function<ResolvedModel(double)> model_;
   Analysis analysis_;
   bool logarithmic_;
   double lowest_;

@@ -7,18 +7,18 @@
 #include "solver/analysis/held_loads.h"
 #include "solver/discrete/free_motions.h"
 #include "solver/events/touching.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/support/law.h"
-#include "solver/support/rods.h"
 
 namespace snapthrough {
 
-bool loads_are_held(const Model& model) {
+bool loads_are_held(const ResolvedModel& model) {
   return !has_one_sided_supports(model) || !start_refusal(model, UnilateralBalance(FreeMotions(model)));
 }
 
-bool are_held_alike(const Model& a, const Model& b) {
+bool are_held_alike(const ResolvedModel& a, const ResolvedModel& b) {
   if (a.springs.size() != b.springs.size() || a.foundations.size() != b.foundations.size()) return false;
-  Model other = b;
+  ResolvedModel other = b;
   other.sections = a.sections;
   const auto take_stiffness = [](const auto& from, auto& to) {
     for (std::size_t i = 0; i < from.size(); ++i)
@@ -29,10 +29,10 @@ bool are_held_alike(const Model& a, const Model& b) {
   return a == other;
 }
 
-TracedPath::TracedPath(Model given, const Analysis& analysis, const std::stop_token& stop,
+TracedPath::TracedPath(const Model& given, const Analysis& analysis, const std::stop_token& stop,
                        const FamilyMember* like)
     : steps_(analysis.step) {
-  Model model = rods_as_springs(std::move(given));
+  ResolvedModel model = resolve(given);
   const ModeOffsets modes = mode_offsets(model, analysis);
   Structure structure = like != nullptr ? with_changed_model(like->structure, like->model, model, modes)
                                         : make_structure(model, analysis.discretization, analysis.geometry,
@@ -42,7 +42,7 @@ TracedPath::TracedPath(Model given, const Analysis& analysis, const std::stop_to
   set(std::move(model), std::move(structure));
 }
 
-void TracedPath::set(Model model, Structure structure) {
+void TracedPath::set(ResolvedModel model, Structure structure) {
   member_ = std::make_shared<FamilyMember>(std::move(model), std::move(structure));
   follower_ = std::make_unique<PathFollower>(member_->problem);
 }
@@ -63,7 +63,7 @@ TraceOutcome TracedPath::run(const TraceRules& rules) {
                                    first, result);
   if (touching) {
     touches_ = true;
-    set(Model(member_->model), std::move(*touching));
+    set(ResolvedModel(member_->model), std::move(*touching));
     first = start(result);
   }
   if (!first) {

@@ -14,16 +14,16 @@
 namespace snapthrough {
 
 /// Whether one-sided supports hold the loads of a model at the start of its path.
-[[nodiscard]] bool loads_are_held(const Model& model);
+[[nodiscard]] bool loads_are_held(const ResolvedModel& model);
 /// Whether loads_are_held() has the same answer for both models: they differ in nothing but the stiffness of
 /// sections, and of supports that are in both.
-[[nodiscard]] bool are_held_alike(const Model& a, const Model& b);
+[[nodiscard]] bool are_held_alike(const ResolvedModel& a, const ResolvedModel& b);
 
 /// Path of a model on a fixed mesh.
 class TracedPath {
  public:
   /// @param like null, or a member whose unknowns and scales the structure has
-  TracedPath(Model model, const Analysis& analysis, const std::stop_token& stop,
+  TracedPath(const Model& model, const Analysis& analysis, const std::stop_token& stop,
              const FamilyMember* like = nullptr);
 
   /// @brief Traces the path from its start; the outcome is no_start, with a failure code, where it has none.
@@ -38,7 +38,7 @@ class TracedPath {
   [[nodiscard]] int factorizations() const { return follower_->statistics().factorizations; }
 
  private:
-  void set(Model model, Structure structure);
+  void set(ResolvedModel model, Structure structure);
   [[nodiscard]] PathStart start(Result& result);
 
   StepOptions steps_;

@@ -7,6 +7,7 @@
 #include "server/worker/sanitizer.h"
 #include "solver/path/path_follower.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/paths/reference_problems.h"
 
 #if !SNAPTHROUGH_SANITIZED  // sanitizers replace malloc themselves
@@ -30,7 +31,7 @@ using namespace testing;
 
 /// Allocations of corrections from the same predictor, after one that brings all buffers to their size.
 long allocations_of_corrections(const ReferenceProblem& problem) {
-  const Structure structure = make_structure(problem.model, {}, Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(problem.model), {}, Geometry::nonlinear);
   StructuralProblem equations(structure);
   PathFollower follower(equations);
   auto at = find_start(follower.solver()).point;

@@ -9,6 +9,7 @@
 
 #include "solver/path/segment.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/trace/trace.h"
 #include "tests/paths/reference_problems.h"
 #include "tests/solver/trace/follow.h"
@@ -32,7 +33,7 @@ double off_halfway(PointSolver& probe, const PathPoint& from, const PathPoint& t
 
 /// The largest of the path to the first limit point or load that the problem asks for; points are appended.
 double largest_off_halfway(const ReferenceProblem& problem, std::vector<PathPoint>& points) {
-  const Structure structure = make_structure(problem.model, {}, Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(problem.model), {}, Geometry::nonlinear);
   StructuralProblem equations(structure);
   PathFollower path(equations);
   PointSolver probe(equations, {});
@@ -77,7 +78,7 @@ TEST(Continuity, AJumpHasItElsewhere) {
   const auto snapped = std::find_if(
       turned, points.end(), [](const PathPoint& at) { return at.tangent_lambda > 0.0 && at.lambda > 0.0; });
   ASSERT_NE(snapped, points.end());
-  const Structure structure = make_structure(arch.model, {}, Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(arch.model), {}, Geometry::nonlinear);
   StructuralProblem equations(structure);
   PointSolver probe(equations, {});
   ASSERT_TRUE(find_start(probe));

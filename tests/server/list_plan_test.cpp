@@ -52,9 +52,9 @@ TEST_F(ListPlan, EverySetOfFiltersIsFoundInAnIndexAndNothingIsSorted) {
     for (int filters = 0; filters < 8; ++filters) {
       SCOPED_TRACE(std::string(table.name) + " " + std::to_string(filters));
       ListQuery query;
-      query.state = (filters & 1) != 0 ? std::optional(JobState::running) : std::nullopt;
-      query.label = (filters & 2) != 0 ? std::optional<std::string>("a") : std::nullopt;
-      query.analysis = (filters & 4) != 0 ? std::optional<std::string>("path") : std::nullopt;
+      if ((filters & 1) != 0) query.state = JobState::running;
+      if ((filters & 2) != 0) query.label = "a";
+      if ((filters & 4) != 0) query.analysis = "path";
       expect_found_in_an_index(table, query);
     }
   }

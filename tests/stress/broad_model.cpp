@@ -11,6 +11,7 @@
 #include "solver/discrete/mechanism.h"
 #include "solver/mesh/mesh.h"
 #include "solver/model/id_index.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/stress/request_drawer.h"
 
 namespace snapthrough::testing {
@@ -311,7 +312,7 @@ RandomRequest broad_request(std::uint64_t seed) {
   constexpr std::uint64_t kAnotherDraw = 0x9e3779b97f4a7c15;
   for (;;) {
     RandomRequest request = Drawer(seed).draw();
-    if (check(request.model, request.analysis).empty() && !can_move(request.model)) return request;
+    if (check(request.model, request.analysis).empty() && !can_move(resolve(request.model))) return request;
     seed += kAnotherDraw;
   }
 }

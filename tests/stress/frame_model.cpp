@@ -7,6 +7,7 @@
 
 #include "solver/check/check.h"
 #include "solver/discrete/mechanism.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/stress/random_numbers.h"
 
 namespace snapthrough::testing {
@@ -121,7 +122,7 @@ RandomRequest frame_request(std::uint64_t seed, double accuracy) {
     out.analysis.type = AnalysisType::critical;
     out.analysis.discretization.accuracy = accuracy;
     out.analysis.output.states = StateOutput::none;
-    if (check(out.model, out.analysis).empty() && !can_move(out.model)) return out;
+    if (check(out.model, out.analysis).empty() && !can_move(resolve(out.model))) return out;
   }
 }
 

@@ -15,6 +15,7 @@
 #include "solver/discrete/mechanism.h"
 #include "solver/geometry/axes.h"
 #include "solver/model/id_index.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/stress/laws_model.h"
 #include "tests/stress/random_numbers.h"
 
@@ -30,7 +31,7 @@ class Widener {
  public:
   Widener(RandomRequest request, std::uint64_t seed)
       : random_(Random(seed + 0x3ED1A).bits()), out_(std::move(request)) {
-    for (const auto& axis : make_axes(out_.model)) length_ = std::max(length_, axis->length());
+    for (const auto& axis : make_axes(resolve(out_.model))) length_ = std::max(length_, axis->length());
   }
   RandomRequest widen();
 
@@ -203,7 +204,7 @@ RandomRequest media_request(std::uint64_t seed) {
   constexpr std::uint64_t kAnotherDraw = 0x9e3779b97f4a7c15;
   for (;; seed += kAnotherDraw) {
     RandomRequest request = Widener(laws_request(seed), seed).widen();
-    if (check(request.model, request.analysis).empty() && !can_move(request.model)) return request;
+    if (check(request.model, request.analysis).empty() && !can_move(resolve(request.model))) return request;
   }
 }
 

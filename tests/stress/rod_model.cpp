@@ -9,6 +9,8 @@
 #include <numbers>
 #include <variant>
 
+#include "solver/resolve/resolved_model.h"
+
 namespace snapthrough::testing {
 namespace {
 
@@ -76,7 +78,7 @@ std::array<double, 2> part_of(const RodElement& element, const std::array<double
 }
 
 void Maker::scales() {
-  rod_.axes = make_axes(model_);
+  rod_.axes = make_axes(resolve(model_));
   rod_.length = 0.0;
   double bending = 0.0;
   for (const auto& axis : rod_.axes) rod_.length = std::max(rod_.length, axis->length());
@@ -343,6 +345,7 @@ void Maker::element_actions(RodElement& element) {
 void Maker::members() {
   const int p = rod_.lagrange.order();
   const double turn = 1.0 / (rod_.force * rod_.length);
+  const ResolvedModel resolved = resolve(model_);
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const Member& member = model_.members[m];
     rod_.members.push_back({index_of(model_.nodes, member.start),
@@ -351,7 +354,7 @@ void Maker::members() {
                             {member.release_start_rotation, turn * member.release_start_stiffness},
                             {member.release_end_rotation, turn * member.release_end_stiffness},
                             {}});
-    stress_free_.emplace_back(model_, static_cast<int>(m), rod_.axes[m], std::vector<CubicSpline>{});
+    stress_free_.emplace_back(resolved, static_cast<int>(m), rod_.axes[m], std::vector<CubicSpline>{});
     const Section& section = model_.sections[index_of(model_.sections, member.section)];
     for (int e = rod_.mesh.first[m]; e < rod_.mesh.first[m + 1]; ++e) {
       RodElement element;
@@ -586,7 +589,7 @@ RodModel make_rod_model(const Model& model, const Analysis& analysis, const Mesh
   Maker maker(beams, rod);
   maker.scales();
   const MeshUse use = mesh_use(analysis);
-  rod.mesh = make_mesh(beams, analysis.discretization, rod.axes, use);
+  rod.mesh = make_mesh(resolve(beams), analysis.discretization, rod.axes, use);
   if (told.paths > 1) set_elements(told.ends, rod.mesh);
   rod.lagrange = Lagrange(rod.mesh.order);
   rod.concentrated =

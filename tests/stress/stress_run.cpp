@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "solver/discrete/mechanism.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/solve.h"
 #include "tests/stress/broad_model.h"
 #include "tests/stress/laws_model.h"
@@ -68,7 +69,7 @@ bool needs_one_sided_supports(RandomRequest request) {
   std::erase_if(request.model.foundations,
                 [](const Foundation& f) { return f.reaction != Reaction::bilateral; });
   std::erase_if(request.model.members, is_rod);
-  return can_move(request.model);
+  return can_move(resolve(request.model));
 }
 
 /// What a reader of a failure wants to know first.

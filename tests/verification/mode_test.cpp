@@ -5,6 +5,7 @@
 /// is antisymmetric, that of its limit point symmetric.
 #include "solver/events/critical_mode.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/trace/trace.h"
 #include "tests/paths/reference_problems.h"
 #include "tests/solver/trace/follow.h"
@@ -32,7 +33,7 @@ double force_in(const Structure& structure, const Eigen::VectorXd& mode) {
 }
 
 std::vector<Measured> measure(const Model& model, const Discretization& mesh, int limit_points) {
-  const Structure structure = make_structure(model, mesh, Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(model), mesh, Geometry::nonlinear);
   StructuralProblem problem(structure);
   std::vector<Measured> out;
   std::size_t done = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/linear_response.h"
 #include "tests/solver/structures.h"
 
@@ -14,10 +15,10 @@ namespace {
 
 /// The linear response to an axial force at the end of a column of EI = 2.
 double decay_under(double force, const Model& model) {
-  const Structure structure = make_structure(model, testing::fixed_mesh(4, 3), Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(model), testing::fixed_mesh(4, 3), Geometry::nonlinear);
   // the load of the model is one, and presses
   const Eigen::VectorXd y = -force * structure.scales.load * testing::linear_response(structure);
-  return bending_decays(structure, model, y).front();
+  return bending_decays(structure, resolve(model), y).front();
 }
 
 TEST(BendingDecays, AreThoseOfAPulledString) {

@@ -11,6 +11,7 @@
 #include "solver/accuracy/differences.h"
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/transfer.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/trace/trace.h"
 #include "tests/solver/linear_response.h"
 #include "tests/solver/structures.h"
@@ -45,12 +46,12 @@ TEST(Differences, ConfirmByTheFirstOneWithMoreRoom) {
 /// On nested elements of the same order or a higher one the polynomials are the same.
 TEST(Transfer, KeepsEveryDisplacement) {
   const Model model = testing::arch(120.0, 1e4, 10.0);
-  const Structure coarse = make_structure(model, testing::fixed_mesh(4, 3), Geometry::nonlinear);
+  const Structure coarse = make_structure(resolve(model), testing::fixed_mesh(4, 3), Geometry::nonlinear);
   // the response to a load, since displacements at ends of elements follow from their gradients
   const Eigen::VectorXd y = testing::linear_response(coarse);
   Mesh finer = *finer_mesh(coarse.mesh);
   finer.order = 5;
-  const Structure fine = on_mesh(coarse, model, finer);
+  const Structure fine = on_mesh(coarse, resolve(model), finer);
   const Eigen::VectorXd there = transfer(coarse, y, fine);
   for (double fraction = 0.013; fraction < 1.0; fraction += 0.031) {
     const MeshPlace a = place_of(coarse.mesh, 0, fraction);
@@ -66,7 +67,7 @@ TEST(Transfer, KeepsEveryDisplacement) {
 /// The first critical point of a structure's path on a coarse mesh, and what FineMesh needs to know of it.
 struct Coarse {
   explicit Coarse(const Model& drawn, const Discretization& mesh)
-      : model(drawn),
+      : model(resolve(drawn)),
         structure(make_structure(model, mesh, Geometry::nonlinear)),
         problem(structure),
         follower(problem) {
@@ -85,7 +86,7 @@ struct Coarse {
     return {on_mesh(structure, model, *finer_mesh(structure.mesh)), model, follower, 1e-11};
   }
 
-  Model model;
+  ResolvedModel model;
   Structure structure;
   StructuralProblem problem;
   PathFollower follower;
@@ -148,8 +149,8 @@ TEST(BucklingLoads, AreRefinedUntilTheEstimateIsWithinTheAccuracy) {
     analysis.type = AnalysisType::buckling;
     analysis.modes = 3;
     analysis.discretization.accuracy = accuracy;
-    Structure first = make_structure(model, testing::fixed_mesh(2, 4), Geometry::nonlinear);
-    const BucklingLoads found = buckling_loads(model, analysis, first);
+    Structure first = make_structure(resolve(model), testing::fixed_mesh(2, 4), Geometry::nonlinear);
+    const BucklingLoads found = buckling_loads(resolve(model), analysis, first);
     ASSERT_EQ(found.buckling.loads.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
       const double n = static_cast<double>(i + 1);

@@ -6,6 +6,7 @@
 
 #include "solver/numeric/cancelled.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/solve.h"
 #include "solver/sweep/critical_curve.h"
 #include "tests/solver/structures.h"
@@ -96,7 +97,7 @@ TEST(StoppedAnalysis, LinearStaticsEndsToo) {
 /// The request is heard once, so that what was reached can be evaluated.
 TEST(StoppedAnalysis, AProblemTellsOnce) {
   std::stop_source stop;
-  Structure structure = make_structure(column(), {}, Geometry::nonlinear);
+  Structure structure = make_structure(resolve(column()), {}, Geometry::nonlinear);
   structure.stop = stop.get_token();
   StructuralProblem problem(structure);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.size());

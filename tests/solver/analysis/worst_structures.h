@@ -13,6 +13,7 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/geometry/cubic_spline.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/solve.h"
 #include "tests/solver/structures.h"
 
@@ -83,7 +84,7 @@ using Offsets = std::vector<std::vector<double>>;
 class RandomOffsets {
  public:
   RandomOffsets(const Model& model, int points, unsigned seed) : points_(points), random_(seed) {
-    for (const auto& axis : make_axes(model)) lengths_.push_back(axis->length());
+    for (const auto& axis : make_axes(resolve(model))) lengths_.push_back(axis->length());
   }
 
   /// Independent normal values at all points.

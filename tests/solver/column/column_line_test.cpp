@@ -9,6 +9,7 @@
 #include <string>
 
 #include "solver/column/column_frame.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -35,7 +36,7 @@ Model two_members() {
 /// Lengths over 4, stiffnesses over 6, forces over 6 / 16, lateral springs over 6 / 64, bases over 6 / 256,
 /// turning springs over 6 / 4.
 TEST(ColumnLine, IsReadFromOneEndToTheOther) {
-  const auto line = column_line(two_members());
+  const auto line = column_line(resolve(two_members()));
   ASSERT_TRUE(line);
   EXPECT_DOUBLE_EQ(line->length, 4.0);
   EXPECT_DOUBLE_EQ(line->stiffness, 6.0);
@@ -70,7 +71,7 @@ TEST(ColumnLine, IsReadFromOneEndToTheOther) {
 }
 
 TEST(ColumnLine, FromTheOtherEndIsTheSameColumn) {
-  const auto line = column_line(two_members());
+  const auto line = column_line(resolve(two_members()));
   ASSERT_TRUE(line);
   const ColumnLine back = reversed(*line);
   EXPECT_DOUBLE_EQ(back.spans.front().length, line->spans.back().length);
@@ -85,7 +86,7 @@ TEST(ColumnLine, KnowsWhichSideOfAHingeIsHeld) {
   Model model = two_members();
   model.members[1].release_end_rotation = true;  // at b: the second member ends there
   model.springs.push_back({"node", {"b", "", 0.0}, {}, 1.5, Reaction::bilateral, 0.0});
-  const auto line = column_line(model);
+  const auto line = column_line(resolve(model));
   ASSERT_TRUE(line);
   EXPECT_TRUE(line->joints[2].hinge);
   EXPECT_DOUBLE_EQ(line->joints[2].left.spring, 1.5 * 4.0 / 6.0);
@@ -98,14 +99,14 @@ TEST(ColumnLine, SharesForcesBetweenHeldEnds) {
   Model model = testing::column(3.0, 1.0, 100.0, 0.0);
   model.supports[1].x = true;
   model.loads = {PointLoad{{"", "column", 1.0 / 3.0}, {-10.0, 0.0}, 0.0, Pattern::proportional}};
-  const auto line = column_line(model);
+  const auto line = column_line(resolve(model));
   ASSERT_TRUE(line);
   ASSERT_EQ(line->spans.size(), 2U);
   EXPECT_NEAR(line->spans[0].proportional, 20.0 / 3.0 * 9.0, 1e-12);
   EXPECT_NEAR(line->spans[1].proportional, -10.0 / 3.0 * 9.0, 1e-12);
   // warming by 1e-3 on top, at constant strain: EA times it everywhere
   model.loads.push_back(InitialStrain{"column", 1e-3, 0.0, Pattern::constant});
-  const auto warm = column_line(model);
+  const auto warm = column_line(resolve(model));
   ASSERT_TRUE(warm);
   for (const ColumnSpan& span : warm->spans) EXPECT_NEAR(span.constant, 0.1 * 9.0, 1e-13);
 }
@@ -121,7 +122,7 @@ class NoColumn : public ::testing::TestWithParam<Other> {};
 TEST_P(NoColumn, IsLeftToTheElements) {
   Model model = two_members();
   GetParam().change(model);
-  EXPECT_FALSE(column_line(model));
+  EXPECT_FALSE(column_line(resolve(model)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -186,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// Counts of a pinned column: n below load factors between (n pi)^2 and ((n + 1) pi)^2; the determinant
 /// changes its sign at each.
 TEST(ColumnFrame, CountsEulersLoads) {
-  const auto line = column_line(testing::column(1.0, 1.0, 1e6, 0.0));
+  const auto line = column_line(resolve(testing::column(1.0, 1.0, 1e6, 0.0)));
   ASSERT_TRUE(line);
   constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
   for (int n = 0; n < 12; ++n) {
@@ -203,7 +204,7 @@ TEST(ColumnFrame, CountsEulersLoads) {
 }
 
 TEST(ColumnFrame, StopsWhenAskedTo) {
-  auto line = column_line(testing::column(1.0, 1.0, 1e6, 0.0));
+  auto line = column_line(resolve(testing::column(1.0, 1.0, 1e6, 0.0)));
   ASSERT_TRUE(line);
   std::stop_source stop;
   line->stop = stop.get_token();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/resolve/resolved_model.h"
 #include "tests/verification/cases.h"
 
 namespace snapthrough::testing {
@@ -40,7 +41,7 @@ Model pile(double length, const ReactionLaw& law) {
 }
 
 double limit_of(const Model& model, double direction = 1.0) {
-  const auto ends = capacity_ends(model);
+  const auto ends = capacity_ends(resolve(model));
   if (!ends) return std::numeric_limits<double>::infinity();
   const auto& end = ends->of(direction);
   return end ? end->factor : std::numeric_limits<double>::infinity();
@@ -54,7 +55,7 @@ TEST(CapacityBalance, ShortPileTurnsAboutAPoint) {
     const Model model = pile(4.0, law_with(type, 5000.0, 50.0));
     expect_relative(limit_of(model), (std::sqrt(2.0) - 1.0) * 50.0 * 4.0, kNear, "limit");
     expect_relative(limit_of(model, -1.0), -(std::sqrt(2.0) - 1.0) * 50.0 * 4.0, kNear, "other sense");
-    const auto ends = capacity_ends(model);
+    const auto ends = capacity_ends(resolve(model));
     EXPECT_EQ(ends->growing->supports, std::vector<std::string>{"soil"});
   }
 }
@@ -110,11 +111,11 @@ TEST(CapacityBalance, ConstantActionsAndOtherSupports) {
   PointLoad constant = force_at(at_node("a"), 100.0, 0.0);
   constant.pattern = Pattern::constant;
   model.loads.push_back(constant);
-  const auto ends = capacity_ends(model);
+  const auto ends = capacity_ends(resolve(model));
   ASSERT_TRUE(ends && ends->constant);
   expect_relative(ends->constant->factor, (std::sqrt(2.0) - 1.0) * 2.0, kNear, "share of the constant load");
   model.supports.push_back(support("a", "xr"));
-  EXPECT_EQ(capacity_ends(model), nullptr);
+  EXPECT_EQ(capacity_ends(resolve(model)), nullptr);
 }
 
 }  // namespace

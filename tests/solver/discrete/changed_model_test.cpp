@@ -11,6 +11,7 @@
 #include "solver/discrete/structure.h"
 #include "solver/numeric/pseudo_random.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -102,7 +103,7 @@ class ChangedModel : public ::testing::TestWithParam<FoundationRule> {
     mesh.elements = 6;
     mesh.order = 4;
     mesh.foundation = GetParam();
-    return make_structure(model, mesh, Geometry::nonlinear);
+    return make_structure(resolve(model), mesh, Geometry::nonlinear);
   }
 };
 
@@ -112,13 +113,13 @@ TEST_P(ChangedModel, HasTheEquationsOfOneThatTakesNothingOver) {
   // another shape of the axis, from which no part can be taken over; its scales are those of the reference
   Model other = model;
   other.members[0].curve = ArcCurve{-50.0};
-  const Structure of_other = with_changed_model(structure, model, other, {});
+  const Structure of_other = with_changed_model(structure, resolve(model), resolve(other), {});
   for (const Change& change : changes()) {
     SCOPED_TRACE(change.name);
     Model changed = model;
     change.apply(changed);
-    const Structure taken = with_changed_model(structure, model, changed, {});
-    const Structure anew = with_changed_model(of_other, other, changed, {});
+    const Structure taken = with_changed_model(structure, resolve(model), resolve(changed), {});
+    const Structure anew = with_changed_model(of_other, resolve(other), resolve(changed), {});
     EXPECT_EQ(equations_of(taken), equations_of(anew));
     EXPECT_EQ(taken.skipped, anew.skipped);
     EXPECT_EQ(taken.has_constant, anew.has_constant);
@@ -131,9 +132,10 @@ TEST_P(ChangedModel, TakesOverAxesWhereNodesMembersAndImperfectionsAreTheSame) {
   const Structure structure = reference(model);
   Model changed = model;
   changed.foundations[0].stiffness *= 2.0;
-  EXPECT_EQ(with_changed_model(structure, model, changed, {}).axes, structure.axes);
+  EXPECT_EQ(with_changed_model(structure, resolve(model), resolve(changed), {}).axes, structure.axes);
   changed.imperfections.clear();
-  EXPECT_NE(with_changed_model(structure, model, changed, {}).stress_free, structure.stress_free);
+  EXPECT_NE(with_changed_model(structure, resolve(model), resolve(changed), {}).stress_free,
+            structure.stress_free);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, ChangedModel,

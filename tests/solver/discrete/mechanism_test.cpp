@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "solver/discrete/free_motions.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 namespace {
@@ -154,9 +155,10 @@ TEST(Mechanism, IsWhatADenseMatrixOfAllNodesAndMembersSays) {
     const bool works =
         motions.cols() > 0 &&
         (load.force[0] * motions.row(3 * n) + load.force[1] * motions.row(3 * n + 1)).norm() > 1e-8;
-    EXPECT_EQ(free_motions(model).cols(), std::min<Eigen::Index>(motions.cols(), 24)) << "seed " << seed;
-    EXPECT_EQ(can_move(model), motions.cols() > 0) << "seed " << seed;
-    EXPECT_EQ(!find_mechanism(model).empty(), works || motions.cols() >= 24) << "seed " << seed;
+    EXPECT_EQ(free_motions(resolve(model)).cols(), std::min<Eigen::Index>(motions.cols(), 24))
+        << "seed " << seed;
+    EXPECT_EQ(can_move(resolve(model)), motions.cols() > 0) << "seed " << seed;
+    EXPECT_EQ(!find_mechanism(resolve(model)).empty(), works || motions.cols() >= 24) << "seed " << seed;
     (motions.cols() == 0 ? held : works ? driven : neutral) += 1;
   }
   EXPECT_GT(held, 50);
@@ -169,7 +171,7 @@ TEST(Mechanism, MotionsAreOrthonormalOverTheJoints) {
   for (int i = 0; i < 7; ++i) model.nodes.push_back({node_id(i), 2.0 * i, 0.3 * (i % 2)});
   for (int i = 0; i < 6; ++i) add_member(model, i, i + 1, i % 2 == 0, false);
   add_support(model, 0, true, true, false);
-  const Eigen::MatrixXd motions = free_motions(model);
+  const Eigen::MatrixXd motions = free_motions(resolve(model));
   ASSERT_GT(motions.cols(), 1);
   ASSERT_EQ(motions.rows(), 21);
   EXPECT_LT(
@@ -210,42 +212,42 @@ Model truss(int bays) {
 TEST(LargeMechanism, LongCantileverIsNone) {
   Model model = chain(5000, false);
   add_support(model, 0, true, true, true);
-  EXPECT_FALSE(can_move(model));
+  EXPECT_FALSE(can_move(resolve(model)));
   model.supports[0].rotation = false;
-  ASSERT_EQ(find_mechanism(model).size(), 1U);
-  EXPECT_NE(find_mechanism(model)[0].detail.find("\"" + node_id(5000) + "\""), std::string::npos);
+  ASSERT_EQ(find_mechanism(resolve(model)).size(), 1U);
+  EXPECT_NE(find_mechanism(resolve(model))[0].detail.find("\"" + node_id(5000) + "\""), std::string::npos);
 }
 
 TEST(LargeMechanism, HeldWhereItSlidesAlongRollersOnly) {
   Model model = chain(3000, false);
   for (int i = 0; i <= 3000; i += 2) add_support(model, i, false, true, false);
-  EXPECT_TRUE(can_move(model));
-  EXPECT_TRUE(find_mechanism(model).empty()) << "no load acts along the rollers";
+  EXPECT_TRUE(can_move(resolve(model)));
+  EXPECT_TRUE(find_mechanism(resolve(model)).empty()) << "no load acts along the rollers";
   add_force(model, 1500, 1.0, 0.0);
-  EXPECT_EQ(find_mechanism(model).size(), 1U);
+  EXPECT_EQ(find_mechanism(resolve(model)).size(), 1U);
   add_force(model, 7, -1.0, 0.0);
-  EXPECT_TRUE(find_mechanism(model).empty()) << "the loads balance";
+  EXPECT_TRUE(find_mechanism(resolve(model)).empty()) << "the loads balance";
   add_support(model, 3, true, false, false);
-  EXPECT_FALSE(can_move(model));
+  EXPECT_FALSE(can_move(resolve(model)));
 }
 
 TEST(LargeMechanism, HingedChainHasMoreMotionsThanCanBeHeld) {
   Model model = chain(2500, true);
   add_support(model, 0, true, true, false);
   add_support(model, 2500, true, true, false);
-  ASSERT_EQ(find_mechanism(model).size(), 1U);
-  EXPECT_NE(find_mechanism(model)[0].detail.find("at least 24"), std::string::npos);
+  ASSERT_EQ(find_mechanism(resolve(model)).size(), 1U);
+  EXPECT_NE(find_mechanism(resolve(model))[0].detail.find("at least 24"), std::string::npos);
 }
 
 TEST(LargeMechanism, TrussesAreHeldAndMissOneBar) {
   for (const int bays : {50, 600, 2000}) {
     Model model = truss(bays);
-    EXPECT_FALSE(can_move(model)) << bays;
+    EXPECT_FALSE(can_move(resolve(model))) << bays;
     model.members.erase(model.members.begin() + 4 * (bays / 2) + 3);  // a diagonal
-    EXPECT_EQ(free_motions(model).cols(), 1) << bays;
-    EXPECT_EQ(find_mechanism(model).size(), 1U) << bays;
+    EXPECT_EQ(free_motions(resolve(model)).cols(), 1) << bays;
+    EXPECT_EQ(find_mechanism(resolve(model)).size(), 1U) << bays;
     std::get<PointLoad>(model.loads[0]).force = {1.0, 0.0};
-    EXPECT_TRUE(find_mechanism(model).empty()) << bays;
+    EXPECT_TRUE(find_mechanism(resolve(model)).empty()) << bays;
   }
 }
 
@@ -264,7 +266,7 @@ TEST(LargeMechanism, BarsBetweenAnyNodesAreRefusedBeforeTheyTakeLong) {
   add_support(model, 0, true, true, false);
   add_support(model, kNodes - 1, true, true, false);
   add_force(model, kNodes / 2, 1.0, 0.0);
-  const auto findings = find_mechanism(model);
+  const auto findings = find_mechanism(resolve(model));
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].code, "too_connected");
 }
@@ -273,13 +275,13 @@ TEST(LargeMechanism, BeamWithAHingeInEachSpan) {
   constexpr int kMembers = 3000;
   Model model = chain(kMembers, false);
   for (int i = 0; i <= kMembers; i += 2) add_support(model, i, i == 0, true, false);
-  EXPECT_FALSE(can_move(model));
+  EXPECT_FALSE(can_move(resolve(model)));
   for (int i = 3; i < kMembers; i += 4) model.members[i].release_start_rotation = true;
-  EXPECT_FALSE(can_move(model)) << "hinges in every other span";
+  EXPECT_FALSE(can_move(resolve(model))) << "hinges in every other span";
   for (int i = 3; i < kMembers; i += 2) model.members[i].release_start_rotation = true;
-  EXPECT_EQ(free_motions(model).cols(), 0) << "held by the first span, body by body";
+  EXPECT_EQ(free_motions(resolve(model)).cols(), 0) << "held by the first span, body by body";
   model.members[1].release_start_rotation = true;
-  EXPECT_EQ(free_motions(model).cols(), 1);
+  EXPECT_EQ(free_motions(resolve(model)).cols(), 1);
 }
 
 TEST(LargeMechanism, FoundationsAndSpringsByTheThousand) {
@@ -292,7 +294,7 @@ TEST(LargeMechanism, FoundationsAndSpringsByTheThousand) {
     base.range = {i / 40000.0, 0.5 + i / 40000.0};
     model.foundations.push_back(base);
   }
-  EXPECT_TRUE(can_move(model)) << "along the member";
+  EXPECT_TRUE(can_move(resolve(model))) << "along the member";
   Spring spring;
   spring.id = "q";
   spring.at.member = "m1";
@@ -300,7 +302,7 @@ TEST(LargeMechanism, FoundationsAndSpringsByTheThousand) {
   spring.direction = {{1.0, 0.0}};
   spring.stiffness = 1e-9;
   model.springs.push_back(spring);
-  EXPECT_FALSE(can_move(model));
+  EXPECT_FALSE(can_move(resolve(model)));
 }
 
 // --- what single supports and loads do
@@ -315,19 +317,19 @@ TEST(Mechanism, BaseOnAnArcLetsItTurnAboutItsCentre) {
   base.member = "m0";
   base.stiffness = 1.0;
   model.foundations.push_back(base);
-  EXPECT_EQ(free_motions(model).cols(), 1);
+  EXPECT_EQ(free_motions(resolve(model)).cols(), 1);
   PressureLoad pressure;
   pressure.member = "m0";
   pressure.value = 1.0;
   model.loads.push_back(pressure);
-  EXPECT_TRUE(find_mechanism(model).empty()) << "pressure goes through the centre";
+  EXPECT_TRUE(find_mechanism(resolve(model)).empty()) << "pressure goes through the centre";
   add_force(model, 1, 0.0, 1.0);
-  EXPECT_EQ(find_mechanism(model).size(), 1U);
+  EXPECT_EQ(find_mechanism(resolve(model)).size(), 1U);
   model.foundations[0].direction = {{0.0, 1.0}};
-  EXPECT_EQ(free_motions(model).cols(), 1) << "slides across the direction of the base";
+  EXPECT_EQ(free_motions(resolve(model)).cols(), 1) << "slides across the direction of the base";
   model.members[0].curve = ParabolaCurve{0.5};
   model.foundations[0].direction.reset();
-  EXPECT_EQ(free_motions(model).cols(), 0) << "no other curve has a centre";
+  EXPECT_EQ(free_motions(resolve(model)).cols(), 0) << "no other curve has a centre";
 }
 
 TEST(Mechanism, PressureOnAClosedRingDrivesNothing) {
@@ -341,10 +343,10 @@ TEST(Mechanism, PressureOnAClosedRingDrivesNothing) {
     pressure.value = 1.0;
     model.loads.push_back(pressure);
   }
-  EXPECT_EQ(free_motions(model).cols(), 3);
-  EXPECT_TRUE(find_mechanism(model).empty());
+  EXPECT_EQ(free_motions(resolve(model)).cols(), 3);
+  EXPECT_TRUE(find_mechanism(resolve(model)).empty());
   model.loads.pop_back();
-  EXPECT_EQ(find_mechanism(model).size(), 1U);
+  EXPECT_EQ(find_mechanism(resolve(model)).size(), 1U);
 }
 
 TEST(Mechanism, LoadAlongATurnedRollerIsNoWork) {
@@ -356,10 +358,10 @@ TEST(Mechanism, LoadAlongATurnedRollerIsNoWork) {
   add_support(model, 0, true, true, false);
   add_support(model, 1, true, false, false, 0.3 * 180.0 / std::numbers::pi);
   add_force(model, 1, 5.0 * c, 5.0 * s);
-  EXPECT_TRUE(can_move(model)) << "about the first node";
-  EXPECT_TRUE(find_mechanism(model).empty());
+  EXPECT_TRUE(can_move(resolve(model))) << "about the first node";
+  EXPECT_TRUE(find_mechanism(resolve(model)).empty());
   add_force(model, 1, -s, c);
-  EXPECT_EQ(find_mechanism(model).size(), 1U);
+  EXPECT_EQ(find_mechanism(resolve(model)).size(), 1U);
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "solver/problem/structural_problem.h"
-#include "solver/support/rods.h"
+#include "solver/resolve/resolved_model.h"
+#include "solver/resolve/rods.h"
 #include "tests/solver/central_differences.h"
 #include "tests/solver/structures.h"
 
@@ -57,7 +58,7 @@ Model with_links() {
 class Links : public ::testing::TestWithParam<Geometry> {
  protected:
   static constexpr double kStep = 1e-6;
-  const Structure structure_ = make_structure(with_links(), testing::fixed_mesh(2, 3), GetParam());
+  const Structure structure_ = make_structure(resolve(with_links()), testing::fixed_mesh(2, 3), GetParam());
   StructuralProblem problem_{structure_};
 };
 

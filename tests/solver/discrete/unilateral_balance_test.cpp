@@ -11,6 +11,7 @@
 
 #include "solver/numeric/nonnegative_least_squares.h"
 #include "solver/report/escape_text.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/verification/cases.h"
 
 namespace snapthrough::testing {
@@ -40,15 +41,17 @@ PointLoad constant(PointLoad load) {
 }
 
 std::optional<Escape> escape_of(const Model& model, double factor = 1.0) {
-  const FreeMotions motions(model);
+  const ResolvedModel resolved = resolve(model);
+  const FreeMotions motions(resolved);
   EXPECT_FALSE(motions.empty());
   return UnilateralBalance(motions).escape(factor);
 }
 
 std::string text_of(const Model& model, double factor = 1.0) {
-  const FreeMotions motions(model);
+  const ResolvedModel resolved = resolve(model);
+  const FreeMotions motions(resolved);
   const auto escape = UnilateralBalance(motions).escape(factor);
-  return escape ? escape_text(model, motions, *escape) : "";
+  return escape ? escape_text(resolved, motions, *escape) : "";
 }
 
 /// A wall of height h on a footing of half-width 1 whose middle is held along the ground.
@@ -131,7 +134,8 @@ TEST(UnilateralBalance, GapsDoNotMatterAndZeroStiffnessIsAbsent) {
 TEST(UnilateralBalance, LargestFactorOfAGrowingLoad) {
   Model model = footing();
   model.loads = {constant(force_at(at_node("top"), 0.0, -200.0)), force_at(at_node("top"), 1.0, 0.0)};
-  const FreeMotions motions(model);
+  const ResolvedModel resolved = resolve(model);
+  const FreeMotions motions(resolved);
   const UnilateralBalance balance(motions);
   EXPECT_FALSE(balance.escape_at_start(1.0));
   EXPECT_FALSE(balance.escape_at_start(-1.0));
@@ -159,7 +163,8 @@ TEST(UnilateralBalance, EachPartIsJudgedByItsOwnLoads) {
   }
   for (const double e : {1.0 - kNear, 1.0 + kNear}) {
     model.loads = {constant(force_at(at_node("top"), 0.0, -1e9)), force_at(at_node("top2"), e / 6.0, -1.0)};
-    const FreeMotions motions(model);
+    const ResolvedModel resolved = resolve(model);
+    const FreeMotions motions(resolved);
     ASSERT_EQ(motions.motions().cols(), 4);
     const UnilateralBalance balance(motions);
     EXPECT_EQ(balance.escape(1.0).has_value(), e > 1.0);
@@ -255,7 +260,8 @@ TEST(UnilateralBalance, RingInAHole) {
 
 /// Rows of a curved support at many places, for a rigid body with all three motions free.
 MatrixXd dense_rows(const Model& model, Side side, std::array<double, 2> range, int places) {
-  const RigidParts parts(model);
+  const ResolvedModel resolved = resolve(model);
+  const RigidParts parts(resolved);
   MatrixXd rows(3, places + 1);
   const double sign = side == Side::left ? 1.0 : -1.0;
   for (int i = 0; i <= places; ++i) {
@@ -284,14 +290,15 @@ TEST(UnilateralBalance, CurvedBedsAreAsDenseRowsSay) {
     model.foundations = {one_sided("m", 1e3, side)};
     model.foundations[0].range = {0.1, 0.1 + 0.9 * std::abs(unit(random))};
     const MatrixXd rows = dense_rows(model, side, model.foundations[0].range, 4000);
+    const double length = RigidParts(resolve(model)).length();
     Vector3d force(unit(random), unit(random), unit(random));
     if (trial % 4 < 2) {  // what some places press with
       force.setZero();
       for (int i = 0; i < 6; ++i) force += (0.1 + std::abs(unit(random))) * rows.col(800 * i);
     }
-    const double length = RigidParts(model).length();
     model.loads = {force_at(at_node("a"), force[0], force[1], force[2] * length)};
-    const FreeMotions motions(model);
+    const ResolvedModel resolved = resolve(model);
+    const FreeMotions motions(resolved);
     ASSERT_EQ(motions.motions().cols(), 3);
     const double outside = nonnegative_least_squares(rows, force.normalized()).residual.norm();
     const auto escape = UnilateralBalance(motions).escape(1.0);
@@ -406,7 +413,8 @@ TEST(UnilateralBalance, NothingIsAskedWithoutFreeMotions) {
   Model model = straight(1.0, 1.0, 1e6, "xy", "y");
   model.foundations = {one_sided("m", 10.0, Side::left)};
   model.loads = {force_at(at_member("m", 0.5), 0.0, -1.0)};
-  const FreeMotions motions(model);
+  const ResolvedModel resolved = resolve(model);
+  const FreeMotions motions(resolved);
   EXPECT_TRUE(motions.empty());
   EXPECT_FALSE(UnilateralBalance(motions).escape(1.0));
 }

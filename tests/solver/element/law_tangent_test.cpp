@@ -6,6 +6,7 @@
 #include <string>
 
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/central_differences.h"
 #include "tests/solver/structures.h"
 
@@ -71,7 +72,8 @@ Model with_laws(ReactionLaw::Type type) {
 class LawTangent : public ::testing::TestWithParam<ReactionLaw::Type> {
  protected:
   static constexpr double kStep = 1e-6;
-  const Structure structure_ = make_structure(with_laws(GetParam()), fixed_mesh(4, 3), Geometry::nonlinear);
+  const Structure structure_ =
+      make_structure(resolve(with_laws(GetParam())), fixed_mesh(4, 3), Geometry::nonlinear);
   StructuralProblem problem_{structure_};
 };
 

@@ -11,6 +11,7 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/central_differences.h"
 #include "tests/solver/structures.h"
 
@@ -66,7 +67,7 @@ class LayerTangent : public ::testing::TestWithParam<Ground> {
  protected:
   static constexpr double kStep = 1e-7;
   const Structure structure_ =
-      make_structure(on_ground(GetParam()), fixed_mesh(kElements, 4), Geometry::nonlinear);
+      make_structure(resolve(on_ground(GetParam())), fixed_mesh(kElements, 4), Geometry::nonlinear);
   StructuralProblem problem_{structure_};
 };
 
@@ -174,10 +175,10 @@ TEST_P(LayerTangent, BelongsToTheSurfaceAboveTheMember) {
   constexpr int kGrid = 8192;
   Model model = on_ground(GetParam());
   model.supports.clear();
-  const Structure with = make_structure(model, fixed_mesh(kElements, 4), Geometry::nonlinear);
+  const Structure with = make_structure(resolve(model), fixed_mesh(kElements, 4), Geometry::nonlinear);
   const FoundationLaw law = with.foundation_laws[0];
   model.foundations[0].stiffness = model.foundations[0].shear_stiffness = 0.0;
-  const Structure without = make_structure(model, fixed_mesh(kElements, 4), Geometry::nonlinear);
+  const Structure without = make_structure(resolve(model), fixed_mesh(kElements, 4), Geometry::nonlinear);
   StructuralProblem ground(with);
   StructuralProblem none(without);
   std::srand(11u);

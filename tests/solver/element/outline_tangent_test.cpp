@@ -11,6 +11,7 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/central_differences.h"
 #include "tests/solver/structures.h"
 
@@ -70,7 +71,7 @@ class OutlineTangent : public ::testing::TestWithParam<std::pair<std::string, Fo
  protected:
   static constexpr double kStep = 1e-6;
   const Structure structure_ =
-      make_structure(beside(GetParam().second), fixed_mesh(4, 3), Geometry::nonlinear);
+      make_structure(resolve(beside(GetParam().second)), fixed_mesh(4, 3), Geometry::nonlinear);
   StructuralProblem problem_{structure_};
 };
 
@@ -90,10 +91,10 @@ TEST_P(OutlineTangent, BelongsToTheIntegralOfTheReaction) {
   constexpr int kPoints = 4000;
   Model model = beside(GetParam().second);
   model.supports.clear();
-  const Structure medium = make_structure(model, fixed_mesh(4, 3), Geometry::nonlinear);
+  const Structure medium = make_structure(resolve(model), fixed_mesh(4, 3), Geometry::nonlinear);
   model.foundations[0].law.reset();
   model.foundations[0].stiffness = 0.0;
-  const Structure none = make_structure(model, fixed_mesh(4, 3), Geometry::nonlinear);
+  const Structure none = make_structure(resolve(model), fixed_mesh(4, 3), Geometry::nonlinear);
   StructuralProblem with_medium(medium);
   StructuralProblem without(none);
   std::srand(5u);

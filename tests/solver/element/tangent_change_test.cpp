@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -79,7 +80,7 @@ std::vector<Number> integrals(const CollocationRule& rule, const Number& xi) {
 /// Mixed energy of an element's beam: forces times compatibility, minus half the forces times compliance.
 Number beam_energy(const Structure& structure, const Model& model, int element, const State& y) {
   const ElementDofs& dofs = structure.dofs[element];
-  const ElementShape shape = shape_of_element(structure, model, element);
+  const ElementShape shape = shape_of_element(structure, resolve(model), element);
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const int p = rule.order();
   Number energy;
@@ -238,7 +239,8 @@ TEST_P(TangentChange, IsTheThirdDerivativeOfTheEnergy) {
   int ends = 0;
   for (int order = 1; order <= kMaxOrder; ++order) {
     const Model model = model_of(GetParam());
-    const Structure structure = make_structure(model, testing::fixed_mesh(4, order), Geometry::nonlinear);
+    const Structure structure =
+        make_structure(resolve(model), testing::fixed_mesh(4, order), Geometry::nonlinear);
     StructuralProblem problem(structure);
     const Eigen::VectorXd y = 0.3 * motion(structure);
     const std::array<Eigen::VectorXd, 3> along{motion(structure), motion(structure), motion(structure)};

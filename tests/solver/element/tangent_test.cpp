@@ -9,6 +9,7 @@
 #include <string>
 
 #include "solver/problem/structural_problem.h"
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -59,7 +60,7 @@ TEST(Residual, KeepsTheDigitsOfSmallDisplacements) {
   constexpr double kSize = 1e-12;
   std::srand(5u);
   const Structure structure =
-      make_structure(testing::arch(120.0, 1e4, 10.0), fixed_mesh(6, 3), Geometry::nonlinear);
+      make_structure(resolve(testing::arch(120.0, 1e4, 10.0)), fixed_mesh(6, 3), Geometry::nonlinear);
   StructuralProblem problem(structure);
   const Eigen::VectorXd y = random_state(problem, kSize);
   Regime small;
@@ -83,7 +84,7 @@ TEST_P(Tangent, MatchesDifferencesOfTheResidualAtLargeRotations) {
   const auto [order, shearable, rule] = GetParam();
   std::srand(11u + static_cast<unsigned>(order));
   const Structure structure =
-      make_structure(everything(shearable), fixed_mesh(6, order, rule), Geometry::nonlinear);
+      make_structure(resolve(everything(shearable)), fixed_mesh(6, order, rule), Geometry::nonlinear);
   StructuralProblem problem(structure);
   for (int trial = 0; trial < 5; ++trial) {
     const Eigen::VectorXd y = random_state(problem, 0.9);
@@ -102,7 +103,7 @@ TEST_P(Tangent, IsInvertedByTheElimination) {
   const auto [order, shearable, rule] = GetParam();
   std::srand(23u + static_cast<unsigned>(order));
   const Structure structure =
-      make_structure(everything(shearable), fixed_mesh(6, order, rule), Geometry::nonlinear);
+      make_structure(resolve(everything(shearable)), fixed_mesh(6, order, rule), Geometry::nonlinear);
   StructuralProblem problem(structure);
   for (int trial = 0; trial < 5; ++trial) {
     const Eigen::VectorXd y = random_state(problem, 0.3);
@@ -162,7 +163,7 @@ void expect_tangent_of_pressure(const std::tuple<int, bool, FoundationRule>& par
   std::srand(17u + static_cast<unsigned>(order));
   Model model = everything(shearable);
   model.loads = loads;
-  const Structure structure = make_structure(model, fixed_mesh(6, order, rule), Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(model), fixed_mesh(6, order, rule), Geometry::nonlinear);
   StructuralProblem problem(structure);
   for (int trial = 0; trial < 5; ++trial) {
     const Eigen::VectorXd y = random_state(problem, 0.9);
@@ -197,7 +198,7 @@ TEST_P(Tangent, OfVaryingPressureIsInvertedByTheElimination) {
   std::srand(29u + static_cast<unsigned>(order));
   Model model = everything(shearable);
   model.loads = varying_pressure();
-  const Structure structure = make_structure(model, fixed_mesh(6, order, rule), Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(model), fixed_mesh(6, order, rule), Geometry::nonlinear);
   ASSERT_GE(structure.follower_ends.size(), 9u * static_cast<std::size_t>(order));
   StructuralProblem problem(structure);
   for (int trial = 0; trial < 3; ++trial) {
@@ -229,8 +230,8 @@ Model with_following_forces(bool shearable) {
 TEST_P(Tangent, OfFollowingForces) {
   const auto [order, shearable, rule] = GetParam();
   std::srand(37u + static_cast<unsigned>(order));
-  const Structure structure =
-      make_structure(with_following_forces(shearable), fixed_mesh(6, order, rule), Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(with_following_forces(shearable)),
+                                             fixed_mesh(6, order, rule), Geometry::nonlinear);
   ASSERT_EQ(structure.follower_forces.size(), 4U);
   StructuralProblem problem(structure);
   constexpr double kStep = 1e-6;
@@ -270,7 +271,7 @@ TEST_P(LowOrderTangent, InertiaIsThatOfTheDenseMatrix) {
   const auto [order, shearable, rule] = GetParam();
   std::srand(31u + static_cast<unsigned>(order));
   const Structure structure =
-      make_structure(everything(shearable), fixed_mesh(4, order, rule), Geometry::nonlinear);
+      make_structure(resolve(everything(shearable)), fixed_mesh(4, order, rule), Geometry::nonlinear);
   StructuralProblem problem(structure);
   std::vector<Eigen::Index> kept;
   int multipliers = 0;
@@ -314,7 +315,7 @@ TEST(RigidMotion, RotationByTwoRadiansHasNoStrain) {
   for (int order = 1; order <= kMaxOrder; ++order) {
     Model model = testing::arch(150.0, 900.0, 2.0);
     model.supports.clear();
-    const Structure structure = make_structure(model, fixed_mesh(5, order), Geometry::nonlinear);
+    const Structure structure = make_structure(resolve(model), fixed_mesh(5, order), Geometry::nonlinear);
     StructuralProblem problem(structure);
     const double angle = 2.0;
     const double c = std::cos(angle) - 1.0;
@@ -334,7 +335,7 @@ TEST(RigidMotion, RotationByTwoRadiansHasNoStrain) {
       const MeshElement& cell = structure.mesh.elements[e];
       place(dofs.a, cell.from);
       place(dofs.b, cell.to);
-      const ElementShape shape = shape_of_element(structure, model, static_cast<int>(e));
+      const ElementShape shape = shape_of_element(structure, resolve(model), static_cast<int>(e));
       for (int q = 0; q < order; ++q) {
         y[dofs.v + q] = c * shape.t[q][0] - s * shape.t[q][1];
         y[dofs.v + order + q] = s * shape.t[q][0] + c * shape.t[q][1];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -21,7 +22,7 @@ struct Buckled {
 };
 
 Buckled buckle(const Model& model, int count) {
-  const Structure structure = make_structure(model, testing::fixed_mesh(24, 6), Geometry::nonlinear);
+  const Structure structure = make_structure(resolve(model), testing::fixed_mesh(24, 6), Geometry::nonlinear);
   StructuralProblem problem(structure);
   return {linear_buckling(structure, problem, count, structure.scales.load), structure.scales.load};
 }

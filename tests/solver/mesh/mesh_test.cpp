@@ -10,6 +10,7 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/model/id_index.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/solve.h"
 #include "tests/solver/structures.h"
 
@@ -19,7 +20,7 @@ namespace {
 using testing::fixed_mesh;
 
 Mesh mesh_of(const Model& model, const Discretization& asked, MeshUse use = MeshUse::final) {
-  return make_mesh(model, asked, make_axes(model), use);
+  return make_mesh(resolve(model), asked, make_axes(resolve(model)), use);
 }
 
 /// Ends of a member's elements, 0 included.
@@ -64,7 +65,7 @@ TEST(Mesh, IsCountedWithoutBeingMade) {
   for (const Discretization& asked : {chosen, fixed_mesh(3, 2), fixed_mesh(70, 1)}) {
     for (const MeshUse use : {MeshUse::final, MeshUse::path, MeshUse::first}) {
       const Mesh mesh = mesh_of(model, asked, use);
-      const MeshSize size = mesh_size(model, asked, use);
+      const MeshSize size = mesh_size(resolve(model), asked, use);
       EXPECT_EQ(size.elements, static_cast<long long>(mesh.elements.size()));
       EXPECT_EQ(size.order, mesh.order);
     }
@@ -89,9 +90,9 @@ TEST(Mesh, HasElementsEndWhereASectionBendsItsTaper) {
 TEST(Mesh, HasElementsEndAtTheKnotsOfAnAxis) {
   Model model = testing::column(4.0, 1.0, 1e6, 0.0);
   model.members[0].curve = PointsCurve{{{0.8, 0.2}, {1.7, -0.1}, {2.5, 0.2}, {3.1, 0.1}}};
-  const Axes axes = make_axes(model);
+  const Axes axes = make_axes(resolve(model));
   ASSERT_EQ(axes[0]->knots().size(), 2U);
-  const auto ends = ends_of(make_mesh(model, {}, axes), 0);
+  const auto ends = ends_of(make_mesh(resolve(model), {}, axes), 0);
   for (const double knot : axes[0]->knots()) EXPECT_TRUE(has_end(ends, knot / axes[0]->length()));
 }
 
@@ -107,12 +108,12 @@ TEST(Mesh, SharesAFixedNumberByLength) {
 /// comes.
 TEST(Mesh, MovesWithWhatActsOnIt) {
   const Model model = crowded();
-  const Axes axes = make_axes(model);
-  const Mesh mesh = make_mesh(model, {}, axes);
+  const Axes axes = make_axes(resolve(model));
+  const Mesh mesh = make_mesh(resolve(model), {}, axes);
   Model moved = model;
   moved.springs[0].at.fraction = 0.22;
   const auto before = ends_of(mesh, 0);
-  const auto after = ends_of(moved_mesh(mesh, model, axes, moved, axes), 0);
+  const auto after = ends_of(moved_mesh(mesh, resolve(model), axes, resolve(moved), axes), 0);
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double at = before[i];
@@ -122,7 +123,7 @@ TEST(Mesh, MovesWithWhatActsOnIt) {
     EXPECT_NEAR(after[i], expected, 1e-15) << at;
   }
   moved.loads.push_back(PointLoad{{"", "column", 0.5}, {0.0, 1.0}, 0.0, Pattern::constant});
-  EXPECT_EQ(ends_of(moved_mesh(mesh, model, axes, moved, axes), 0), before);
+  EXPECT_EQ(ends_of(moved_mesh(mesh, resolve(model), axes, resolve(moved), axes), 0), before);
 }
 
 /// With fewer elements than pieces they are equal, and what lies inside them acts inside.
@@ -195,7 +196,7 @@ TEST_P(Grading, OfOneSidedBasesFollowsTheAccuracy) {
       EXPECT_LE(width, decay_lengths() * decay * (1.0 + 1e-9)) << accuracy;
     const double given = longest(ends_of(mesh_of(model, as_stiff_as_given(asked), GetParam()), 0));
     EXPECT_LE(given, decay_lengths() * decay * (1.0 + 1e-9)) << accuracy;
-    const Structure structure = make_structure(model, asked, Geometry::nonlinear, {}, GetParam());
+    const Structure structure = make_structure(resolve(model), asked, Geometry::nonlinear, {}, GetParam());
     const FoundationLaw law = law_on(structure, structure.foundation_laws[0], 0);
     const double acting = law.law.stiffness / structure.scales.scaled_modulus(1.0);
     EXPECT_NEAR(acting / (is_checked ? 4.0 * std::pow(3.0 / width, 4) : 1e12), 1.0, 1e-9) << accuracy;
@@ -271,9 +272,9 @@ TEST(Mesh, BecomesFinerByHalves) {
 /// Halved towards each place until an element there has at most three decay lengths; elsewhere as it was.
 TEST(Mesh, IsLayeredTowardsWhereSomethingActs) {
   const Model model = crowded();
-  const Axes axes = make_axes(model);
+  const Axes axes = make_axes(resolve(model));
   const Mesh mesh = mesh_of(model, {}, MeshUse::path);
-  const auto ends = ends_of(layered_mesh(mesh, model, axes, {1e-3}), 0);
+  const auto ends = ends_of(layered_mesh(mesh, resolve(model), axes, {1e-3}), 0);
   for (const double place : {0.0, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0}) {
     const auto at = std::ranges::find_if(ends, [place](double end) { return std::abs(end - place) < 1e-12; });
     ASSERT_NE(at, ends.end()) << place;
@@ -285,9 +286,12 @@ TEST(Mesh, IsLayeredTowardsWhereSomethingActs) {
   for (const double end : before) EXPECT_TRUE(has_end(ends, end)) << end;
   EXPECT_LE(ends.size(), before.size() + 12U * 6U);
   const double infinite = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(ends_of(layered_mesh(mesh, model, axes, {infinite}), 0), before);
-  EXPECT_EQ(ends_of(layered_mesh(layered_mesh(mesh, model, axes, {1e-3}), model, axes, {1e-3}), 0), ends);
-  EXPECT_LE(layered_mesh(mesh, model, axes, {0.0}).elements.size(), before.size() + 12U * 20U);
+  EXPECT_EQ(ends_of(layered_mesh(mesh, resolve(model), axes, {infinite}), 0), before);
+  EXPECT_EQ(
+      ends_of(layered_mesh(layered_mesh(mesh, resolve(model), axes, {1e-3}), resolve(model), axes, {1e-3}),
+              0),
+      ends);
+  EXPECT_LE(layered_mesh(mesh, resolve(model), axes, {0.0}).elements.size(), before.size() + 12U * 20U);
 }
 
 TEST(Mesh, IsNotRefinedWithoutEnd) {

@@ -1,4 +1,4 @@
-#include "solver/support/rods.h"
+#include "solver/resolve/rods.h"
 
 #include <cmath>
 #include <cstddef>

@@ -3,10 +3,9 @@
 /// Loads of members in the forms that the equations take: forces per length, initial strains.
 
 #include <array>
-#include <string>
 #include <vector>
 
-#include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -22,14 +21,14 @@ struct LinePiece {
 
 /// Dead load along a member.
 struct LineLoad {
-  std::string member;
+  int member = -1;
   LoadMeasure per = LoadMeasure::length;
   LoadAxes axes = LoadAxes::global;
   Pattern pattern = Pattern::proportional;
   std::vector<LinePiece> pieces;  ///< ascending
 };
 
-[[nodiscard]] LineLoad line_load(const DistributedLoad& load);
+[[nodiscard]] LineLoad line_load(const ResolvedDistributedLoad& load);
 
 /// Length to which a load refers, per undeformed length of an axis at an angle.
 [[nodiscard]] double measure_of(LoadMeasure per, double angle);
@@ -39,9 +38,10 @@ struct LineLoad {
                                                  double angle);
 
 /// Weight of a member. @pre the member's section has a mass
-[[nodiscard]] LineLoad weight_of(const Model& model, const Member& member, const SelfWeight& load);
+[[nodiscard]] LineLoad weight_of(const ResolvedModel& model, int member, const SelfWeight& load);
 
 /// Strain by temperature. @pre the member's section has an expansion
-[[nodiscard]] InitialStrain strain_of(const Model& model, const TemperatureLoad& load);
+[[nodiscard]] ResolvedInitialStrain strain_of(const ResolvedModel& model,
+                                              const ResolvedTemperatureLoad& load);
 
 }  // namespace snapthrough

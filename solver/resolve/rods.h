@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "solver/model/model.h"
+#include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
 
@@ -21,18 +21,12 @@ namespace snapthrough {
 /// @pre the model passed all checks but that of mechanisms
 [[nodiscard]] std::optional<Model> with_rods_as_springs(const Model& model);
 
-/// The model with_rods_as_springs(), or the model itself.
-[[nodiscard]] inline Model rods_as_springs(Model model) {
-  std::optional<Model> changed = with_rods_as_springs(model);
-  return changed ? *std::move(changed) : std::move(model);
-}
-
 /// @brief Inserts what was made for each rod, in the order of `rods`, into a list of what was made for each
 /// other member, so that both have the order of the members.
-/// @param rods springs of a model with_rods_as_springs(); others are skipped
+/// @param rods springs of a model; those that stand for no rod are skipped
 /// @param make called with the index of a spring that stands for a rod
 template <class T, class Make>
-void insert_rods(const std::vector<Spring>& rods, const Make& make, std::vector<T>& list) {
+void insert_rods(const std::vector<ResolvedSpring>& rods, const Make& make, std::vector<T>& list) {
   for (std::size_t i = 0; i < rods.size(); ++i)
     if (rods[i].rod) list.insert(list.begin() + static_cast<std::ptrdiff_t>(*rods[i].rod), make(i));
 }

@@ -1,5 +1,5 @@
 /// One-sided members as springs: their weights.
-#include "solver/support/rods.h"
+#include "solver/resolve/rods.h"
 
 #include <gtest/gtest.h>
 

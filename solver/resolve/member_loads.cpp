@@ -1,10 +1,8 @@
-#include "solver/model/member_loads.h"
+#include "solver/resolve/member_loads.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-
-#include "solver/model/id_index.h"
 
 namespace snapthrough {
 namespace {
@@ -15,10 +13,6 @@ Along<double> times(double factor, const Along<double>& along) {
   Along<double> out = along;
   for (auto& [fraction, value] : out) value *= factor;
   return out;
-}
-
-const Section& section_of(const Model& model, const Member& member) {
-  return model.sections[static_cast<std::size_t>(index_of(model.sections, member.section))];
 }
 
 /// Pieces of a range between the fractions at which a force is given.
@@ -43,7 +37,7 @@ Vec2 LinePiece::at(double fraction) const {
   return from == to ? from : between(from, to, (fraction - range[0]) / (range[1] - range[0]), power);
 }
 
-LineLoad line_load(const DistributedLoad& load) {
+LineLoad line_load(const ResolvedDistributedLoad& load) {
   const auto force_at = [&load](double fraction) { return value_at(load.force, load.force_along, fraction); };
   return {load.member, load.per, load.axes, load.pattern,
           pieces_between(load.range, load.force_along, force_at)};
@@ -61,21 +55,20 @@ Vec2 global_force(LoadAxes axes, const Vec2& force, double angle) {
   return {c * force[0] - s * force[1], s * force[0] + c * force[1]};
 }
 
-LineLoad weight_of(const Model& model, const Member& member, const SelfWeight& load) {
-  const AlongMember& mass = *section_of(model, member).mass;
+LineLoad weight_of(const ResolvedModel& model, int member, const SelfWeight& load) {
+  const AlongMember& mass = *model.section_of(model.members[static_cast<std::size_t>(member)]).mass;
   const auto force_at = [&](double fraction) {
     return Vec2{mass.at(fraction) * load.gravity[0], mass.at(fraction) * load.gravity[1]};
   };
-  LineLoad out{member.id, LoadMeasure::length, LoadAxes::global, load.pattern,
+  LineLoad out{member, LoadMeasure::length, LoadAxes::global, load.pattern,
                pieces_between({0.0, 1.0}, mass.points, force_at)};
   for (LinePiece& piece : out.pieces) piece.power = mass.power;
   return out;
 }
 
-InitialStrain strain_of(const Model& model, const TemperatureLoad& load) {
-  const Member& member = model.members[static_cast<std::size_t>(index_of(model.members, load.member))];
-  const double expansion = *section_of(model, member).expansion;
-  InitialStrain out;
+ResolvedInitialStrain strain_of(const ResolvedModel& model, const ResolvedTemperatureLoad& load) {
+  const double expansion = *model.section_of(model.members[static_cast<std::size_t>(load.member)]).expansion;
+  ResolvedInitialStrain out;
   out.member = load.member;
   out.axial = expansion * load.change;
   // a fibre at the distance n along the left normal is strained by e - n k

@@ -1,0 +1,93 @@
+/// Indices for the ids of a model.
+#include <gtest/gtest.h>
+
+#include <variant>
+
+#include "solver/resolve/resolved_model.h"
+
+namespace snapthrough {
+namespace {
+
+/// Two members in the reverse order of their nodes, with one of everything that names something.
+Model with_references() {
+  Model model;
+  model.nodes = {{"c", 2.0, 0.0}, {"b", 1.0, 0.0}, {"a", 0.0, 0.0}};
+  model.sections = {{"stiff", 2e6, 2.0, {}}, {"soft", 1e6, 1.0, {}}};
+  model.members = {{"second", "b", "c", "soft", LineCurve{}}, {"first", "a", "b", "stiff", LineCurve{}}};
+  model.supports = {{"a", true, true, true, 0.0, {}}};
+  Spring link;
+  link.at.node = "b";
+  link.to = Location{"c", "", 0.0};
+  Spring on_member;
+  on_member.at = {"", "first", 0.25};
+  model.springs = {link, on_member};
+  Foundation base;
+  base.member = "first";
+  base.stiffness = 7.0;
+  model.foundations = {base};
+  model.loads = {PointLoad{{"c", "", 0.0}, {1.0, 2.0}},
+                 DistributedLoad{"first", {0.0, -1.0}},
+                 PressureLoad{"second", 3.0},
+                 InitialStrain{"first", 1e-3},
+                 SelfWeight{{0.0, -9.81}},
+                 TemperatureLoad{"second", 20.0}};
+  model.imperfections = {SineImperfection{"first", 1, 0.01}, PointsImperfection{"second", {{0.5, 0.01}}}};
+  model.masses = {{{"", "second", 0.5}, 4.0}};
+  model.monitors = {{"u", {"c", "", 0.0}, Component::x}};
+  return model;
+}
+
+TEST(Resolve, FindsWhatEachFieldNames) {
+  const ResolvedModel model = resolve(with_references());
+  EXPECT_EQ(model.members[0].start, 1);
+  EXPECT_EQ(model.members[0].end, 0);
+  EXPECT_EQ(model.members[0].section, 1);
+  EXPECT_EQ(model.start_of(model.members[1]).id, "a");
+  EXPECT_EQ(model.end_of(model.members[1]).id, "b");
+  EXPECT_EQ(model.section_of(model.members[1]).id, "stiff");
+  EXPECT_EQ(model.supports[0].node, 2);
+  EXPECT_EQ(model.springs[0].at, (ResolvedLocation{1, -1, 0.0}));
+  EXPECT_EQ(model.springs[0].to, (ResolvedLocation{0, -1, 0.0}));
+  EXPECT_EQ(model.springs[1].at, (ResolvedLocation{-1, 1, 0.25}));
+  EXPECT_TRUE(model.springs[1].at.is_on_member());
+  EXPECT_EQ(model.springs[1].to, std::nullopt);
+  EXPECT_EQ(model.foundations[0].member, 1);
+  EXPECT_EQ(model.foundations[0].stiffness, 7.0);
+  EXPECT_EQ(model.masses[0].at, (ResolvedLocation{-1, 0, 0.5}));
+  EXPECT_EQ(model.masses[0].mass, 4.0);
+  EXPECT_EQ(model.monitors[0].at.node, 0);
+}
+
+TEST(Resolve, KeepsTheOrderAndTheAmountsOfLoadsAndImperfections) {
+  const ResolvedModel model = resolve(with_references());
+  ASSERT_EQ(model.loads.size(), 6U);
+  EXPECT_EQ(std::get<ResolvedPointLoad>(model.loads[0]).at.node, 0);
+  EXPECT_EQ(std::get<ResolvedPointLoad>(model.loads[0]).force[1], 2.0);
+  EXPECT_EQ(std::get<ResolvedDistributedLoad>(model.loads[1]).member, 1);
+  EXPECT_EQ(std::get<ResolvedPressureLoad>(model.loads[2]).member, 0);
+  EXPECT_EQ(std::get<ResolvedInitialStrain>(model.loads[3]).axial, 1e-3);
+  EXPECT_EQ(std::get<SelfWeight>(model.loads[4]).gravity[1], -9.81);
+  EXPECT_EQ(std::get<ResolvedTemperatureLoad>(model.loads[5]).member, 0);
+  ASSERT_EQ(model.imperfections.size(), 2U);
+  EXPECT_EQ(std::get<ResolvedSineImperfection>(model.imperfections[0]).member, 1);
+  EXPECT_EQ(std::get<ResolvedPointsImperfection>(model.imperfections[1]).member, 0);
+}
+
+TEST(Resolve, TakesOneSidedMembersForSprings) {
+  Model given = with_references();
+  given.members[0].reaction = Reaction::tension_only;  // "second", which what names it would need
+  given.loads = {PointLoad{{"c", "", 0.0}, {1.0, 2.0}}};
+  given.imperfections = {SineImperfection{"first", 1, 0.01}};
+  given.masses.clear();
+  const ResolvedModel model = resolve(given);
+  ASSERT_EQ(model.members.size(), 1U);
+  EXPECT_EQ(model.foundations[0].member, 0);
+  EXPECT_EQ(std::get<ResolvedSineImperfection>(model.imperfections[0]).member, 0);
+  ASSERT_EQ(model.springs.size(), 3U);
+  EXPECT_EQ(model.springs[2].at.node, 1);
+  EXPECT_EQ(model.springs[2].to, (ResolvedLocation{0, -1, 0.0}));
+  EXPECT_EQ(model.springs[2].rod, 0U);
+}
+
+}  // namespace
+}  // namespace snapthrough
