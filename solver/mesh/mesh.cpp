@@ -46,6 +46,13 @@ class GivenCounts {
     const auto found = of_members_.find(member.id);
     return found == of_members_.end() ? std::max(1, others_) : found->second;
   }
+  /// @param members of a Model or of a ResolvedModel
+  template <class AnyMember>
+  [[nodiscard]] long long sum(const std::vector<AnyMember>& members) const {
+    long long elements = 0;
+    for (const AnyMember& member : members) elements += of(member);
+    return elements;
+  }
 
  private:
   std::unordered_map<std::string_view, int> of_members_;
@@ -200,19 +207,12 @@ Mesh make_mesh(const ResolvedModel& model, const Discretization& discretization,
 }
 
 long long given_elements(const std::vector<Member>& members, const Discretization& discretization) {
-  const GivenCounts given(discretization);
-  long long sum = 0;
-  for (const Member& member : members) sum += given.of(member);
-  return sum;
+  return GivenCounts(discretization).sum(members);
 }
 
 MeshSize mesh_size(const ResolvedModel& model, const Discretization& discretization, MeshUse use) {
-  if (discretization.fixed_mesh) {
-    const GivenCounts given(discretization);
-    MeshSize size{0, discretization.order};
-    for (const ResolvedMember& member : model.members) size.elements += given.of(member);
-    return size;
-  }
+  if (discretization.fixed_mesh)
+    return {GivenCounts(discretization).sum(model.members), discretization.order};
   const MeshChoice choice(discretization, use);
   const std::vector<MemberActions> actions = actions_on_members(model);
   MeshSize size{0, choice.rule().order};
