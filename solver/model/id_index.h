@@ -3,7 +3,6 @@
 /// Look-up of objects by id.
 
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -29,13 +28,5 @@ class IdIndex {
  private:
   std::unordered_map<std::string_view, int> positions_;
 };
-
-/// @brief Position of the object with this id, by linear search; -1: none.
-template <typename T>
-[[nodiscard]] int index_of(const std::vector<T>& things, const std::string& id) {
-  for (std::size_t i = 0; i < things.size(); ++i)
-    if (things[i].id == id) return static_cast<int>(i);
-  return -1;
-}
 
 }  // namespace snapthrough

@@ -10,8 +10,8 @@
 #include "solver/check/check.h"
 #include "solver/discrete/mechanism.h"
 #include "solver/mesh/mesh.h"
-#include "solver/model/id_index.h"
 #include "solver/resolve/resolved_model.h"
+#include "tests/index_of.h"
 #include "tests/stress/request_drawer.h"
 
 namespace snapthrough::testing {

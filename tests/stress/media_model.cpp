@@ -14,8 +14,8 @@
 #include "solver/check/check.h"
 #include "solver/discrete/mechanism.h"
 #include "solver/geometry/axes.h"
-#include "solver/model/id_index.h"
 #include "solver/resolve/resolved_model.h"
+#include "tests/index_of.h"
 #include "tests/stress/laws_model.h"
 #include "tests/stress/random_numbers.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <variant>
 
-#include "solver/model/id_index.h"
+#include "tests/index_of.h"
 #include "tests/reaction_sum.h"
 #include "tests/stress/inertia.h"
 #include "tests/stress/rod_state.h"

@@ -1,5 +1,4 @@
 #include "tests/stress/rod_model.h"
-#include "solver/model/id_index.h"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <variant>
 
 #include "solver/resolve/resolved_model.h"
+#include "tests/index_of.h"
 
 namespace snapthrough::testing {
 namespace {

@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/id_index.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/solve.h"
+#include "tests/index_of.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {

@@ -8,7 +8,8 @@
 namespace snapthrough {
 namespace {
 
-/// Two members in the reverse order of their nodes, with one of everything that names something.
+/// A chain of two members, listed against the order of their nodes, with one object of each kind that refers
+/// to another.
 Model with_references() {
   Model model;
   model.nodes = {{"c", 2.0, 0.0}, {"b", 1.0, 0.0}, {"a", 0.0, 0.0}};
@@ -75,7 +76,7 @@ TEST(Resolve, KeepsTheOrderAndTheAmountsOfLoadsAndImperfections) {
 
 TEST(Resolve, TakesOneSidedMembersForSprings) {
   Model given = with_references();
-  given.members[0].reaction = Reaction::tension_only;  // "second", which what names it would need
+  given.members[0].reaction = Reaction::tension_only;  // "second"; nothing below refers to it
   given.loads = {PointLoad{{"c", "", 0.0}, {1.0, 2.0}}};
   given.imperfections = {SineImperfection{"first", 1, 0.01}};
   given.masses.clear();
