@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { violations } from './support/axe.mjs';
-import { downloaded, drawnPath, eventually, openPage, settled, slide } from './support/browser.mjs';
+import { downloaded, drawnPath, eventually, openPage, settled, slide, watchWalking } from './support/browser.mjs';
 import { browser, close, service } from './support/stage.mjs';
 
 const studio = (problem = 'buried_pipe') => openPage(browser, `${service.url}/#/studio?problem=${problem}`);
@@ -60,8 +60,10 @@ test('the jobs of a tab go with it', async () => {
   const listed = async () => (await (await fetch(`${service.url}/v1/jobs?label=studio`)).json()).jobs;
   const left = async () => (await listed()).map(({ id }) => id);
   const before = new Set(await left());
+  const isWalking = watchWalking(page);
   await slide(page, 'Ground stiffness', 600, 900);
   await settled(page);
+  await eventually(isWalking, 'the page knows all of its jobs');
   const added = async () => (await left()).filter((id) => !before.has(id));
   await eventually(async () => (await added()).length > 0, 'the tab has jobs');
   await eventually(async () => (await listed()).every(({ status }) => status === 'successful'), 'all are answered');

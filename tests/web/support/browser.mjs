@@ -48,6 +48,26 @@ export async function settled(page) {
   await page.locator('.dot.there').waitFor();
 }
 
+/**
+ * Watches what a page hands in. The function that it gives tells whether the last request was the one for states to walk
+ * through, which ends a series of changes, and whether the page knows its job: it has asked for it, or removed it.
+ */
+export function watchWalking(page) {
+  let last = null;
+  const known = new Set();
+  page.on('request', (request) => {
+    const { pathname } = new URL(request.url());
+    if (request.method() === 'POST' && pathname === '/v1/jobs') last = request;
+    else known.add(pathname);
+  });
+  return async () => {
+    const asked = last;
+    if ((await asked?.headerValue('prefer')) !== 'return=minimal') return false;  // others wait for their result
+    const response = await asked.response();
+    return asked === last && known.has(await response?.headerValue('location'));
+  };
+}
+
 /** The path that is drawn, as text: changes when another one is drawn. */
 export function drawnPath(page) {
   return page.locator('.path-card svg path.path').evaluateAll((paths) => paths.map((path) => path.getAttribute('d')).join());
