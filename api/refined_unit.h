@@ -6,8 +6,9 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 
+#include "api/point_outcome.h"
+#include "api/solved_point.h"
 #include "api/sweep.h"
-#include "api/sweep_unit.h"
 #include "solver/hooks.h"
 
 namespace snapthrough::api {

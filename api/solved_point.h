@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Outcome of one point of a sweep. Internal to api/.
+/// Solves one point of a sweep.
 
 #include <functional>
 #include <memory>
@@ -8,10 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "api/point_outcome.h"
 #include "api/sweep.h"
-#include "api/sweep_unit.h"
+#include "solver/hooks.h"
 
 namespace snapthrough::api {
+
+/// A result and the duration of its analysis in seconds, measured by the caller.
+struct TimedResult {
+  Result result;
+  double seconds = 0.0;
+};
+
+/// Solves the request of one point. Must be reentrant.
+using SolvePoint = std::function<TimedResult(const Model&, const Analysis&, const Hooks&)>;
 
 /// Returns all findings in one text.
 [[nodiscard]] std::string sentence_of(const std::vector<Finding>& findings);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "api/api.h"
+#include "api/point_outcome.h"
 
 namespace snapthrough::api {
 
@@ -29,15 +30,6 @@ inline constexpr std::size_t kMaxOutputBytes = std::size_t{1} << 20;
 
 struct SweepData;
 struct SweepRow;
-
-/// Outcome of a point: outputs or a failure.
-struct PointOutcome {
-  std::string outputs = {};  ///< JSON array with one value for each output; empty: the point failed
-  std::string code = {};     ///< failure code, such as "no_convergence"; empty: no failure
-  std::string detail = {};   ///< sentence about the failure
-
-  [[nodiscard]] bool failed() const { return !code.empty(); }
-};
 
 /// Numbers of rows.
 struct RowCounts {

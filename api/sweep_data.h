@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/sweep.h"
+#include "api/point_outcome.h"
 
 namespace snapthrough::api {
 

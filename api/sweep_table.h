@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/names.h"
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 
 namespace snapthrough::api {

@@ -3,24 +3,16 @@
 /// Computes the outcomes of the points of a unit of a sweep.
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "api/point_outcome.h"
+#include "api/solved_point.h"
 #include "api/sweep.h"
 #include "solver/hooks.h"
 
 namespace snapthrough::api {
-
-/// A result and the duration of its analysis in seconds, measured by the caller.
-struct TimedResult {
-  Result result;
-  double seconds = 0.0;
-};
-
-/// Solves the request of one point. Must be reentrant.
-using SolvePoint = std::function<TimedResult(const Model&, const Analysis&, const Hooks&)>;
 
 /// @brief Returns the outcomes of a unit's points in their order.
 ///

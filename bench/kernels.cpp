@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/cases.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/structure.h"
 #include "solver/numeric/symmetric_indefinite.h"
 #include "solver/problem/structural_problem.h"

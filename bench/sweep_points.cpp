@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 #include "server/jobs/content_key.h"
 #include "server/worker/unit.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "server/front/keys.h"
-#include "server/front/listener.h"
+#include "server/front/listener_data.h"
 #include "server/log/log.h"
 #include "server/queue/job_service.h"
 #include "server/resources/routes.h"

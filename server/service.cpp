@@ -12,6 +12,7 @@
 #include "api/sweep.h"
 #include "server/front/gateway.h"
 #include "server/front/listener.h"
+#include "server/front/listener_data.h"
 #include "server/jobs/callback.h"
 #include "server/jobs/envelope.h"
 #include "server/maintenance/upkeep.h"

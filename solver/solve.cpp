@@ -10,6 +10,7 @@
 #include "solver/analysis/capacity_rule.h"
 #include "solver/analysis/held_loads.h"
 #include "solver/analysis/worst_offset.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/free_motions.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"

@@ -5,7 +5,7 @@
 #include "api/plot/document.h"
 #include "api/plot/looks.h"
 #include "api/plot/model.h"
-#include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 
 namespace snapthrough::api::plot {
 

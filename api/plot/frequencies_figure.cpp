@@ -9,6 +9,7 @@
 #include "api/plot/figures.h"
 #include "api/plot/labels.h"
 #include "api/plot/numbers.h"
+#include "api/plot/plot_error.h"
 #include "api/plot/result.h"
 #include "solver/numeric/work_limit.h"
 

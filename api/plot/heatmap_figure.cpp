@@ -7,6 +7,7 @@
 #include "api/plot/figures.h"
 #include "api/plot/labels.h"
 #include "api/plot/numbers.h"
+#include "api/plot/plot_error.h"
 #include "api/plot/sweep_axes.h"
 #include "api/plot/table.h"
 

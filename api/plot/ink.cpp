@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "api/plot/plot.h"
+#include "api/plot/plot_error.h"
 #include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {

@@ -3,6 +3,7 @@
 #include "api/plot/axes.h"
 #include "api/plot/drawing.h"
 #include "api/plot/figures.h"
+#include "api/plot/plot_error.h"
 #include "api/plot/sections.h"
 
 namespace snapthrough::api::plot {

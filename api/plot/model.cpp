@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "api/plot/outline.h"
-#include "api/plot/plot.h"
 
 namespace snapthrough::api::plot {
 namespace {

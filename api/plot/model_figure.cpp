@@ -1,5 +1,6 @@
 #include "api/plot/drawing.h"
 #include "api/plot/figures.h"
+#include "api/plot/plot_error.h"
 
 namespace snapthrough::api::plot {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "api/plot/figures.h"
 #include "api/plot/ink.h"
+#include "api/plot/plot_error.h"
 #include "api/plot/result.h"
 
 namespace snapthrough::api {
@@ -178,17 +179,6 @@ Figure figure_of(const plot::ResultInput& input, const PlotRequest& request, Plo
 }
 
 }  // namespace
-
-PlotError::PlotError(std::string pointer, std::string rule)
-    : std::runtime_error(pointer.empty() ? rule : pointer + ": " + rule),
-      pointer_(std::move(pointer)),
-      rule_(std::move(rule)) {}
-
-bool add_condition(std::string_view text, PlotRequest& request) {
-  const std::size_t equals = text.find('=');
-  return equals != std::string_view::npos &&
-         request.where.emplace(text.substr(0, equals), text.substr(equals + 1)).second;
-}
 
 PlotKind default_plot_kind(const nlohmann::json& document) {
   need_drawable(document);

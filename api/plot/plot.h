@@ -5,106 +5,18 @@
 /// All functions are pure: no files, threads or global state. Equal arguments give equal bytes. Loops whose
 /// length a document sets poll WorkLimit (solver/numeric/work_limit.h).
 
-#include <cstddef>
-#include <limits>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 
-#include "api/json_text.h"
-#include "api/names.h"
+#include "api/plot/plot_request.h"
 
 namespace snapthrough::api {
-
-enum class PlotKind {
-  path,         ///< equilibrium path: load factor over a monitor, or over the arc length
-  shape,        ///< a state: undeformed and deformed members, contact, reactions
-  sections,     ///< axial force, shear force, bending moment along the members of a state
-  mode,         ///< a buckling mode, or the mode of a critical point
-  model,        ///< the undeformed structure of a request, with supports, springs, ground and loads
-  law,          ///< reaction of a spring or foundation over its displacement, of a request or model
-  frequencies,  ///< natural circular frequencies over the load factor
-  stiffness,    ///< stiffness ratio along the primary path over the load factor
-  sweep,        ///< an output of a sweep over one parameter, a curve for each value of a second one
-  heatmap       ///< an output of a sweep over two parameters
-};
-
-inline constexpr Named<PlotKind> kPlotKinds[] = {{"path", PlotKind::path},
-                                                 {"shape", PlotKind::shape},
-                                                 {"sections", PlotKind::sections},
-                                                 {"mode", PlotKind::mode},
-                                                 {"model", PlotKind::model},
-                                                 {"law", PlotKind::law},
-                                                 {"frequencies", PlotKind::frequencies},
-                                                 {"stiffness", PlotKind::stiffness},
-                                                 {"sweep", PlotKind::sweep},
-                                                 {"heatmap", PlotKind::heatmap}};
-
-/// Limits of documents to plot. They exceed those of requests: long paths and large sweeps have many values.
-inline constexpr ParseLimits kFigureLimits{64, 20'000'000};
-inline constexpr double kLeastPlotSize = 200;  ///< pixels; smallest width and height
-inline constexpr double kLargestPlotSize = 8000;
-
-/// Choices of a figure. Members that the kind does not use are ignored; each comment gives the default.
-struct PlotRequest {
-  std::optional<PlotKind> kind;  ///< default: default_plot_kind()
-  std::optional<double> width;   ///< pixels, kLeastPlotSize to kLargestPlotSize; default: 720
-  std::optional<double> height;  ///< pixels, same limits; default: 480, sections 600
-  bool dark = false;             ///< light lines on a dark background
-  /// shape, sections: index in `states`; default: the state of the first critical point with a state, else
-  /// the last state.
-  std::optional<std::size_t> state;
-  /// mode: index in `buckling.modes`, else in `critical_points`; default: the first mode.
-  std::optional<std::size_t> mode;
-  std::optional<std::size_t> branch;   ///< path: index in `branches` of the only branch drawn; default: all
-  std::optional<std::string> monitor;  ///< path: monitor on the horizontal axis; default: the first monitor
-  bool over_arc_length = false;        ///< path: true plots over the arc length
-  bool points = false;                 ///< path: true marks the points at which an equilibrium was solved
-  /// shape: factor of displacements, > 0. Default: 1, or a round number when displacements are too small to
-  /// see; the caption states it. mode: amplitude in tenths of the structure's extent.
-  std::optional<double> magnify;
-  /// law: id of the spring or foundation; default: the first one with a law, springs first
-  std::optional<std::string> law;
-  std::optional<std::string> output;  ///< sweep, heatmap: column; default: the first output with numbers
-  std::optional<std::string> x;       ///< sweep, heatmap: parameter on the horizontal axis
-  std::optional<std::string> by;  ///< sweep: parameter with a curve for each value; heatmap: vertical axis
-  std::map<std::string, std::string> where;  ///< sweep, heatmap: draw only rows with these parameter values
-  /// Largest number of coordinates of the figure, which bounds its memory and its text; more are an error.
-  /// The points of members' curves, which are sampled whether or not they are drawn, have two each. Default:
-  /// none.
-  std::size_t most_coordinates = std::numeric_limits<std::size_t>::max();
-  /// The request that gave the result, or null. shape and mode need it for supports, springs, ground and
-  /// loads, path for direction and unit of monitors, law for the laws when the document has no model. It must
-  /// outlive the call.
-  const nlohmann::json* solved_request = nullptr;
-};
-
-/// @brief The document or the choices do not give a figure.
-class PlotError : public std::runtime_error {
- public:
-  /// @param pointer JSON Pointer into the document, or into the solved request when it begins with "request:"
-  /// @param rule the rule that the value breaks, as a sentence
-  PlotError(std::string pointer, std::string rule);
-  [[nodiscard]] const std::string& pointer() const { return pointer_; }
-  [[nodiscard]] const std::string& rule() const { return rule_; }
-
- private:
-  std::string pointer_;
-  std::string rule_;
-};
 
 /// @brief Returns the default kind of a document. Table with two parameters of more than six values each:
 /// heatmap; other table: sweep. Result with buckling modes: mode; with static rows and states: shape; with
 /// branches or static rows: path; else with states: shape; else mode. A model without an analysis: model.
 /// @throws PlotError when the document is neither a result, nor a table, nor a model
 [[nodiscard]] PlotKind default_plot_kind(const nlohmann::json& document);
-
-/// Adds a condition "NAME=VALUE" to `where`. Returns false for a text without "=", and for a name that has a
-/// condition already.
-[[nodiscard]] bool add_condition(std::string_view text, PlotRequest& request);
 
 /// @brief Returns the SVG text of a result document (output of `snapthrough solve`), of a sweep table (output
 /// of `snapthrough sweep`), or of a model: a request, `{"model": ...}`, or the model itself, such as

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 #include "solver/model/finding.h"
 
 namespace snapthrough::api {

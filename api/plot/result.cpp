@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "api/plot/geometry.h"
-#include "api/plot/plot.h"
+#include "api/plot/plot_error.h"
 
 namespace snapthrough::api::plot {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "api/plot/plot.h"
+#include "api/plot/plot_error.h"
 #include "solver/numeric/work_limit.h"
 
 namespace snapthrough::api::plot {

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "api/plot/ink.h"
-#include "api/plot/plot.h"
+#include "api/plot/plot_error.h"
 
 namespace snapthrough::api::plot {
 namespace {

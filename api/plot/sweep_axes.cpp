@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/plot/labels.h"
+#include "api/plot/plot_error.h"
 
 namespace snapthrough::api::plot {
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "api/plot/axes.h"
+#include "api/plot/plot_request.h"
 #include "api/plot/table.h"
 
 namespace snapthrough::api::plot {

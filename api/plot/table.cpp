@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "api/plot/numbers.h"
+#include "api/plot/plot_error.h"
 
 namespace snapthrough::api::plot {
 namespace {

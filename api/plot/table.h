@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "api/plot/document.h"
-#include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 
 namespace snapthrough::api::plot {
 

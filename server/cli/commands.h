@@ -10,8 +10,8 @@
 
 #include "api/result_table.h"
 #include "api/sweep_table.h"
-#include "server/cli/app.h"
 #include "server/cli/part_file.h"
+#include "server/cli/streams.h"
 #include "server/settings.h"
 
 namespace CLI {

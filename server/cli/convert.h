@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "server/cli/app.h"
+#include "server/cli/streams.h"
 
 namespace snapthrough::server::cli {
 

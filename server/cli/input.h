@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/cli/app.h"
+#include "server/cli/streams.h"
 #include "solver/check/check.h"
 
 namespace snapthrough::server::cli {

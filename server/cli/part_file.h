@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 #include "server/descriptor.h"
 

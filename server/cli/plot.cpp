@@ -10,6 +10,8 @@
 
 #include "api/json_text.h"
 #include "api/plot/plot.h"
+#include "api/plot/plot_error.h"
+#include "api/plot/plot_request.h"
 #include "server/cli/input.h"
 #include "server/cli/plot_file.h"
 

@@ -7,7 +7,7 @@
 
 #include "api/api.h"
 #include "api/json_text.h"
-#include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 #include "api/provenance.h"
 #include "server/cli/commands.h"
 #include "server/cli/input.h"

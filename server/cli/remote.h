@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "server/cli/app.h"
+#include "server/cli/streams.h"
 
 namespace snapthrough::server::cli {
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "server/cli/remote.h"
+#include "server/cli/streams.h"
 
 namespace snapthrough::server::cli {
 

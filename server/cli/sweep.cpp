@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "api/json_text.h"
+#include "api/point_outcome.h"
 #include "api/provenance.h"
 #include "api/sweep_table.h"
 #include "server/cli/commands.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/authority.h"
+#include "server/resources/documents.h"
 #include "server/resources/hops/protocol.h"
 #include "server/resources/job_key.h"
 #include "server/resources/page.h"

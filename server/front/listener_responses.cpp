@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kLinger{500};
 }  // namespace
 
 /// Sends a response. Returns true when it was sent and the connection is ready for another request.
-bool Listener::Server::deliver(const ClientPointer& client, Response response) {
+bool ListenerServer::deliver(const ClientPointer& client, Response response) {
   // a client that does not expect the close may have sent another request
   client->linger_after = client->linger_after || (draining_ && !client->close_after);
   client->close_after = client->close_after || draining_;
@@ -35,7 +35,7 @@ bool Listener::Server::deliver(const ClientPointer& client, Response response) {
 }
 
 /// Sends a response, or refuses a large one when too many bytes are being sent.
-bool Listener::Server::begin_body(const ClientPointer& client, const Response& response) {
+bool ListenerServer::begin_body(const ClientPointer& client, const Response& response) {
   const std::size_t waiting = client->output.size();  // size of a "100 Continue"
   client->close_after = client->close_after || (response.rest && !client->chunked);
   client->output += to_bytes(response, client->head_only, !client->close_after, client->chunked);
@@ -54,20 +54,20 @@ bool Listener::Server::begin_body(const ClientPointer& client, const Response& r
   return send_on(client);
 }
 
-bool Listener::Server::defer(const ClientPointer& client, Deferred deferred) {
+bool ListenerServer::defer(const ClientPointer& client, Deferred deferred) {
   client->phase = Phase::deferred;
   client->deadline = Clock::now() + deferred.wait;
   client->work = std::move(deferred.resume);
   deferred.arm([weak = weak_from_this(), wake = Wake{client->id, ++client->deferral}] {
     if (const auto server = weak.lock()) {
-      Server::wake(server->normal_, wake);
+      ListenerServer::wake(server->normal_, wake);
     }
   });
   rearm(*client, end_of(*client));
   return false;
 }
 
-bool Listener::Server::begin_stream(const ClientPointer& client, const Response& response) {
+bool ListenerServer::begin_stream(const ClientPointer& client, const Response& response) {
   const bool may = shares_.add_stream(client->party, std::max(1, options_.streams / kPartOfStreams));
   if (!may || ++streams_ > options_.streams) {
     if (may) {
@@ -86,7 +86,7 @@ bool Listener::Server::begin_stream(const ClientPointer& client, const Response&
                                              const std::string& piece, bool last) {
     const bool taken = outbox->put(piece, last);
     if (const auto server = weak.lock()) {
-      Server::wake(server->normal_, {id});
+      ListenerServer::wake(server->normal_, {id});
     }
     return taken;
   });
@@ -95,7 +95,7 @@ bool Listener::Server::begin_stream(const ClientPointer& client, const Response&
 }
 
 /// Sends the pieces of a stream as far as the client accepts them.
-void Listener::Server::pump(const ClientPointer& client) {
+void ListenerServer::pump(const ClientPointer& client) {
   if (client->source) {
     client->source->poll();
   }
@@ -119,7 +119,7 @@ void Listener::Server::pump(const ClientPointer& client) {
 }
 
 /// Continues to send. Returns true when the response was sent and the connection is ready for a request.
-bool Listener::Server::send_on(const ClientPointer& client) {
+bool ListenerServer::send_on(const ClientPointer& client) {
   for (int piece = 0; piece < kFairSteps; ++piece) {
     const std::size_t before = client->output_sent;
     const Client::Sent sent = client->flush();
@@ -150,8 +150,8 @@ bool Listener::Server::send_on(const ClientPointer& client) {
   return wait_to_send(client, EPOLLOUT, Clock::now() + options_.times.send);  // lets other clients continue
 }
 
-bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t events,
-                                    Clock::time_point deadline) {
+bool ListenerServer::wait_to_send(const ClientPointer& client, std::uint32_t events,
+                                  Clock::time_point deadline) {
   client->phase = Phase::sending;
   client->deadline = deadline;
   rearm(*client, events);
@@ -159,7 +159,7 @@ bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t e
 }
 
 /// Appends a piece of the body. Returns false when the body cannot be completed.
-bool Listener::Server::append_piece(const ClientPointer& client) {
+bool ListenerServer::append_piece(const ClientPointer& client) {
   try {
     std::string piece;
     const StatusOr<bool> more = client->rest->append_next(piece);
@@ -181,7 +181,7 @@ bool Listener::Server::append_piece(const ClientPointer& client) {
   }
 }
 
-bool Listener::Server::after_response(const ClientPointer& client) {
+bool ListenerServer::after_response(const ClientPointer& client) {
   if (client->linger_after) {
     linger(client);
     return false;
@@ -197,7 +197,7 @@ bool Listener::Server::after_response(const ClientPointer& client) {
 
 /// Ends the sending side, and discards what the client sends until it closes: a close() with unread bytes
 /// would reset the connection, which can destroy a response that the client has not read yet (RFC 9112, 9.6).
-void Listener::Server::linger(const ClientPointer& client) {
+void ListenerServer::linger(const ClientPointer& client) {
   client->end_output();
   client->phase = Phase::lingering;
   client->deadline = Clock::now() + kLinger;

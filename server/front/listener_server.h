@@ -22,11 +22,13 @@
 #include "server/bell.h"
 #include "server/descriptor.h"
 #include "server/front/client.h"
-#include "server/front/listener.h"
+#include "server/front/gateway.h"
+#include "server/front/listener_data.h"
 #include "server/front/shares.h"
 #include "server/front/turns.h"
 #include "server/jobs/memory.h"
 #include "server/jobs/recent_use.h"
+#include "server/status.h"
 #include "solver/numeric/work_limit.h"
 
 namespace snapthrough::server::http {
@@ -84,9 +86,9 @@ struct Lane {
   std::deque<Wake> wakes;
 };
 
-class Listener::Server final : public std::enable_shared_from_this<Listener::Server> {
+class ListenerServer final : public std::enable_shared_from_this<ListenerServer> {
  public:
-  Server(ListenerOptions options, Gateway& gateway);
+  ListenerServer(ListenerOptions options, Gateway& gateway);
 
   Status start();
   void begin_drain() { draining_ = true; }

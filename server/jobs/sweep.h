@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "api/sweep.h"
+#include "api/point_outcome.h"
 #include "server/jobs/job.h"
 #include "server/jobs/sweep_state.h"
 

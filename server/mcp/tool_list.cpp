@@ -5,7 +5,7 @@
 
 #include "api/names.h"
 #include "api/openapi/schemas.h"
-#include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 #include "server/mcp/tools.h"
 
 namespace snapthrough::server::mcp {

@@ -8,6 +8,7 @@
 
 #include "api/api.h"
 #include "api/check_document.h"
+#include "api/point_outcome.h"
 #include "api/provenance.h"
 #include "api/sweep.h"
 #include "api/sweep_table.h"

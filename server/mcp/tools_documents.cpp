@@ -9,6 +9,8 @@
 #include "api/convert/convert.h"
 #include "api/names.h"
 #include "api/plot/plot.h"
+#include "api/plot/plot_error.h"
+#include "api/plot/plot_request.h"
 #include "server/mcp/tools.h"
 
 namespace snapthrough::server::mcp {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "api/api.h"
 #include "server/resources/hops/protocol.h"
@@ -24,6 +25,11 @@ ordered_json optional_time(const std::optional<Time>& time) {
 
 ordered_json link(std::string_view rel, const std::string& href) {
   return {{"rel", rel}, {"href", href}, {"type", "application/json"}};
+}
+
+/// Returns the links of a page of a list: that to the next page, unless `next` is "".
+ordered_json page_links(std::string_view next) {
+  return next.empty() ? ordered_json::array() : ordered_json::array({link("next", std::string(next))});
 }
 
 /// Adds label, metadata and callback, each if the client gave it.
@@ -140,10 +146,6 @@ ordered_json sweep_status(const SweepRecord& sweep) {
 
 }  // namespace
 
-ordered_json page_links(std::string_view next) {
-  return next.empty() ? ordered_json::array() : ordered_json::array({link("next", std::string(next))});
-}
-
 std::string sweep_path(std::string_view id) { return "/v1/sweeps/" + std::string(id); }
 
 ordered_json sweep_counts(const SweepRecord& sweep) {
@@ -175,6 +177,19 @@ std::string job_list_document(const JobPage& page, std::string_view next) {
     jobs.push_back(job_status(job, std::nullopt));
   }
   return to_text({{"jobs", std::move(jobs)}, {"links", page_links(next)}});
+}
+
+std::string audit_document(std::string_view owner, std::span<const AuditEntry> entries,
+                           std::string_view next) {
+  ordered_json list = ordered_json::array();
+  for (const AuditEntry& entry : entries) {
+    list.push_back({{"time", rfc3339(entry.at)},
+                    {"event", to_string(entry.event)},
+                    {"kind", entry.sweep ? "sweep" : "job"},
+                    {"id", entry.id},
+                    {"owner", owner}});
+  }
+  return to_text({{"count", entries.size()}, {"events", std::move(list)}, {"links", page_links(next)}});
 }
 
 namespace {
@@ -217,6 +232,64 @@ Response problem_response(const Problem& problem, const Request& request) {
   response.status = problem.status;
   response.content_type = "application/problem+json";
   response.body = to_text(document);
+  return response;
+}
+
+Response simple_problem(const Request& request, int status, const char* kind, const char* title,
+                        std::string detail) {
+  return problem_response({status, kind, title, std::move(detail), {}, "", ""}, request);
+}
+
+Response unauthorized(const Request& request, const char* kind, const char* title, std::string detail) {
+  Response refused = simple_problem(request, 401, kind, title, std::move(detail));
+  refused.headers.emplace_back("WWW-Authenticate", "Bearer");
+  return refused;
+}
+
+Response store_trouble(const Request& request, const Status& status) {
+  Response response;
+  switch (status.code()) {
+    case StatusCode::stopping:
+      response = simple_problem(request, 503, "not-ready", "Not ready", status.message());
+      response.headers.emplace_back("Retry-After", "5");
+      return response;
+    case StatusCode::waiting_quota:
+      response = simple_problem(request, 429, "waiting-quota", "Quota of waiting work", status.message());
+      response.headers.emplace_back("Retry-After", "10");
+      return response;
+    case StatusCode::rate_quota:
+      response = simple_problem(request, 429, "rate-quota", "Quota of an hour", status.message());
+      response.headers.emplace_back("Retry-After", "60");
+      return response;
+    case StatusCode::storage_quota:
+      return simple_problem(request, 403, "storage-quota", "Quota of storage", status.message());
+    case StatusCode::unavailable:
+      response = simple_problem(request, 503, "store-unavailable", "Service unavailable",
+                                "The store cannot be used at the moment.");
+      response.headers.emplace_back("Retry-After", "5");
+      break;
+    default:
+      response = simple_problem(request, 500, "internal-error", "Internal error", "The store failed.");
+  }
+  response.trouble = status.message();
+  return response;
+}
+
+Response job_missing(const Request& request, const std::string& id) {
+  return simple_problem(request, 404, "no-such-job", "No such job",
+                        "There is no job with the id " + id + ".");
+}
+
+Response sweep_missing(const Request& request, const std::string& id) {
+  return simple_problem(request, 404, "no-such-sweep", "No such sweep",
+                        "There is no sweep with the id " + id + ".");
+}
+
+Response json_response(int status, std::string body) {
+  Response response;
+  response.status = status;
+  response.content_type = "application/json";
+  response.body = std::move(body);
   return response;
 }
 

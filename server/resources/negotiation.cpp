@@ -7,7 +7,7 @@
 
 #include "api/names.h"
 #include "server/jobs/envelope.h"
-#include "server/resources/routes.h"
+#include "server/resources/documents.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -137,6 +137,10 @@ Response event_stream(const Request& request, std::optional<std::uint64_t> end,
   response.stream =
       Stream{[follow = std::move(follow), last](Stream::Push push) { return follow(last, std::move(push)); }};
   return response;
+}
+
+bool is_json(std::string_view content_type) {
+  return equal_ignoring_case(trimmed(content_type.substr(0, content_type.find(';'))), "application/json");
 }
 
 bool takes_gzip(std::string_view accepted) {

@@ -82,6 +82,9 @@ inline constexpr int kLargestPage = 1000;
     const Request& request, std::optional<std::uint64_t> end,
     std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow);
 
+/// Returns whether a Content-Type is JSON.
+[[nodiscard]] bool is_json(std::string_view content_type);
+
 /// Returns whether a list of codings ("br;q=1.0, gzip;q=0.8") accepts gzip.
 [[nodiscard]] bool takes_gzip(std::string_view accepted);
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "api/names.h"
+#include "server/resources/documents.h"
 #include "server/resources/negotiation.h"
-#include "server/resources/routes.h"
 
 namespace snapthrough::server::http {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 #include "server/resources/message.h"
 
 namespace snapthrough::server::http {

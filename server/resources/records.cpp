@@ -6,7 +6,6 @@
 
 #include "api/csv_field.h"
 #include "server/environment.h"
-#include "server/resources/documents.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -133,19 +132,6 @@ std::string usage_csv(std::span<const UsageRow> rows) {
     text += "\n";
   }
   return text;
-}
-
-std::string audit_document(std::string_view owner, std::span<const AuditEntry> entries,
-                           std::string_view next) {
-  ordered_json list = ordered_json::array();
-  for (const AuditEntry& entry : entries) {
-    list.push_back({{"time", rfc3339(entry.at)},
-                    {"event", to_string(entry.event)},
-                    {"kind", entry.sweep ? "sweep" : "job"},
-                    {"id", entry.id},
-                    {"owner", owner}});
-  }
-  return to_text({{"count", entries.size()}, {"events", std::move(list)}, {"links", page_links(next)}});
 }
 
 std::string deletion_sentence(const AuditEntry& entry) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Documents and headers about what was used, what is left, what happened, and what made an answer.
+/// Documents and headers about what was used, what is left, what was deleted, and what made an answer.
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -30,10 +30,6 @@ void add_balance(const Quotas& quotas, const Balance& balance, Response& respons
                                          const Quotas& quotas, const Balance& balance);
 /// Returns the rows of usage as CSV.
 [[nodiscard]] std::string usage_csv(std::span<const UsageRow> rows);
-
-/// Returns a page of events; `next` is the path of the next page, "" on the last one.
-[[nodiscard]] std::string audit_document(std::string_view owner, std::span<const AuditEntry> entries,
-                                         std::string_view next);
 
 /// Returns a sentence about a deletion.
 [[nodiscard]] std::string deletion_sentence(const AuditEntry& entry);

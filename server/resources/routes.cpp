@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/environment.h"
+#include "server/resources/documents.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -48,62 +49,6 @@ bool hands_in(std::string_view method, std::string_view pattern) {
 }
 
 }  // namespace
-
-Response json_response(int status, std::string body) {
-  Response response;
-  response.status = status;
-  response.content_type = "application/json";
-  response.body = std::move(body);
-  return response;
-}
-
-Response simple_problem(const Request& request, int status, const char* kind, const char* title,
-                        std::string detail) {
-  return problem_response({status, kind, title, std::move(detail), {}, "", ""}, request);
-}
-
-Response store_trouble(const Request& request, const Status& status) {
-  Response response;
-  switch (status.code()) {
-    case StatusCode::stopping:
-      response = simple_problem(request, 503, "not-ready", "Not ready", status.message());
-      response.headers.emplace_back("Retry-After", "5");
-      return response;
-    case StatusCode::waiting_quota:
-      response = simple_problem(request, 429, "waiting-quota", "Quota of waiting work", status.message());
-      response.headers.emplace_back("Retry-After", "10");
-      return response;
-    case StatusCode::rate_quota:
-      response = simple_problem(request, 429, "rate-quota", "Quota of an hour", status.message());
-      response.headers.emplace_back("Retry-After", "60");
-      return response;
-    case StatusCode::storage_quota:
-      return simple_problem(request, 403, "storage-quota", "Quota of storage", status.message());
-    case StatusCode::unavailable:
-      response = simple_problem(request, 503, "store-unavailable", "Service unavailable",
-                                "The store cannot be used at the moment.");
-      response.headers.emplace_back("Retry-After", "5");
-      break;
-    default:
-      response = simple_problem(request, 500, "internal-error", "Internal error", "The store failed.");
-  }
-  response.trouble = status.message();
-  return response;
-}
-
-bool is_json(std::string_view content_type) {
-  return equal_ignoring_case(trimmed(content_type.substr(0, content_type.find(';'))), "application/json");
-}
-
-Response job_missing(const Request& request, const std::string& id) {
-  return simple_problem(request, 404, "no-such-job", "No such job",
-                        "There is no job with the id " + id + ".");
-}
-
-Response sweep_missing(const Request& request, const std::string& id) {
-  return simple_problem(request, 404, "no-such-sweep", "No such sweep",
-                        "There is no sweep with the id " + id + ".");
-}
 
 /// Answers for an id that names_nothing().
 static Response missing(const Request& request, std::string_view pattern, const std::string& id) {

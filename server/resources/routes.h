@@ -12,7 +12,6 @@
 
 #include "api/result_table.h"
 #include "server/queue/job_service.h"
-#include "server/resources/documents.h"
 #include "server/resources/hops/catalogue.h"
 #include "server/resources/message.h"
 #include "server/resources/page.h"
@@ -151,18 +150,5 @@ class Routes {
   ServiceFacts facts_;
   hops::Catalogue components_;
 };
-
-// Responses of several resources.
-[[nodiscard]] Response json_response(int status, std::string body);
-[[nodiscard]] Response simple_problem(const Request& request, int status, const char* kind, const char* title,
-                                      std::string detail);
-/// Returns a problem with status 401 and the WWW-Authenticate that belongs to it.
-[[nodiscard]] Response unauthorized(const Request& request, const char* kind, const char* title,
-                                    std::string detail);
-[[nodiscard]] Response store_trouble(const Request& request, const Status& status);
-[[nodiscard]] Response job_missing(const Request& request, const std::string& id);
-[[nodiscard]] Response sweep_missing(const Request& request, const std::string& id);
-/// Returns whether a Content-Type is JSON.
-[[nodiscard]] bool is_json(std::string_view content_type);
 
 }  // namespace snapthrough::server::http

@@ -5,6 +5,7 @@
 #include "api/json_text.h"
 #include "server/jobs/memory.h"
 #include "server/resources/body_sources.h"
+#include "server/resources/documents.h"
 #include "server/resources/hops/protocol.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/routes.h"

@@ -5,6 +5,7 @@
 
 #include "api/result_table.h"
 #include "server/resources/body_sources.h"
+#include "server/resources/documents.h"
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/prefer.h"

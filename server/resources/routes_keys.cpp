@@ -4,16 +4,11 @@
 #include <utility>
 
 #include "server/digest.h"
+#include "server/resources/documents.h"
 #include "server/resources/job_key.h"
 #include "server/resources/routes.h"
 
 namespace snapthrough::server::http {
-
-Response unauthorized(const Request& request, const char* kind, const char* title, std::string detail) {
-  Response refused = simple_problem(request, 401, kind, title, std::move(detail));
-  refused.headers.emplace_back("WWW-Authenticate", "Bearer");
-  return refused;
-}
 
 Response Routes::create_job_key(const Request& request, const std::string& id) {
   if (request.owner.empty()) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/jobs/envelope.h"
+#include "server/resources/documents.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/records.h"
 #include "server/resources/routes.h"

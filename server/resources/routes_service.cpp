@@ -8,7 +8,9 @@
 #include "api/sweep.h"
 #include "server/jobs/envelope.h"
 #include "server/jobs/memory.h"
+#include "server/resources/documents.h"
 #include "server/resources/embedded.h"
+#include "server/resources/negotiation.h"
 #include "server/resources/routes.h"
 
 namespace snapthrough::server::http {

@@ -6,6 +6,7 @@
 #include "api/sweep_table.h"
 #include "server/jobs/memory.h"
 #include "server/resources/body_sources.h"
+#include "server/resources/documents.h"
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/prefer.h"

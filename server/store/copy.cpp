@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/names.h"
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 
 namespace snapthrough::server {

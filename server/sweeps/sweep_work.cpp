@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <utility>
 
+#include "api/point_outcome.h"
 #include "api/sweep_unit.h"
 #include "server/bell.h"
 #include "server/store/units.h"

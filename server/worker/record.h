@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "api/names.h"
+#include "api/point_outcome.h"
 #include "api/result_fields.h"
-#include "api/sweep.h"
 #include "server/jobs/job.h"
 #include "server/worker/runner.h"
 #include "solver/solve.h"

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 #include "server/jobs/job.h"
 #include "solver/solve.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/api.h"
+#include "api/point_outcome.h"
 #include "api/sweep_unit.h"
 #include "server/worker/thread_time.h"
 

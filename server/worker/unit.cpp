@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "api/solved_point.h"
 #include "api/sweep_unit.h"
 #include "server/jobs/content_key.h"
 #include "server/worker/thread_time.h"

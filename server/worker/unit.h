@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 #include "server/worker/runner.h"
 #include "server/worker/solve_job.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/accuracy/differences.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/transfer.h"
 
 namespace snapthrough {

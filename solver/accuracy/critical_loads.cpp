@@ -12,6 +12,7 @@
 #include "solver/report/critical_point.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/state.h"
+#include "solver/report/support_state.h"
 
 namespace snapthrough {
 namespace {

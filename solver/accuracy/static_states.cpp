@@ -7,6 +7,7 @@
 
 #include "solver/accuracy/layers.h"
 #include "solver/accuracy/state_values.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/transfer.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/number_text.h"

@@ -7,7 +7,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "solver/analysis/path_points.h"
+#include "solver/analysis/path_row.h"
+#include "solver/path/point_solver.h"
 
 namespace snapthrough {
 

@@ -6,6 +6,7 @@
 
 #include "solver/numeric/number_text.h"
 #include "solver/report/state.h"
+#include "solver/report/support_state.h"
 
 namespace snapthrough {
 namespace {

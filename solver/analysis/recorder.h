@@ -15,6 +15,7 @@
 #include "solver/report/contact.h"
 #include "solver/report/neutral_motion.h"
 #include "solver/report/state.h"
+#include "solver/report/support_state.h"
 #include "solver/trace/path_observer.h"
 #include "solver/trace/trace_rules.h"
 

@@ -11,6 +11,7 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/free_motions.h"
 #include "solver/events/buckling.h"
 #include "solver/events/touching.h"

@@ -16,6 +16,7 @@
 #include "solver/analysis/monitor_watch.h"
 #include "solver/analysis/recorder.h"
 #include "solver/analysis/vibration_rule.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/events/branch.h"
 #include "solver/events/touching.h"
 #include "solver/hooks.h"

@@ -21,11 +21,13 @@
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
+#include "solver/problem/held_motions.h"
 #include "solver/report/critical_point.h"
 #include "solver/report/mode.h"
 #include "solver/report/neutral_motion.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/state.h"
+#include "solver/report/support_state.h"
 #include "solver/trace/trace.h"
 
 namespace snapthrough {

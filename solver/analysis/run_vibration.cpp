@@ -11,6 +11,7 @@
 #include "solver/accuracy/differences.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/frequency_probe.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/mode.h"
 #include "solver/report/result_parts.h"

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "solver/check/check.h"
 #include "solver/model/finding.h"
 #include "solver/model/pointer.h"
 

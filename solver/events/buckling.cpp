@@ -17,6 +17,7 @@
 #include "solver/numeric/dense.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/pseudo_random.h"
+#include "solver/problem/held_motions.h"
 
 namespace snapthrough {
 namespace {

@@ -6,13 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "solver/events/buckling_pencil.h"
 #include "solver/events/least_piece.h"
 #include "solver/problem/structural_problem.h"
 
 namespace snapthrough {
-
-/// Sense of the proportional actions for which buckling loads are computed.
-enum class LoadSense { as_given, reversed };
 
 /// Eigenvalues lambda > 0 of (K_E + K_G(s_c) + lambda K_G(s_p)) x = 0, ascending; s_c and s_p are the linear
 /// stresses of the constant actions and of the proportional actions at unit scaled load factor.

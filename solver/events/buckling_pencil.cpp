@@ -8,6 +8,7 @@
 
 #include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
+#include "solver/problem/held_motions.h"
 
 namespace snapthrough {
 

@@ -5,11 +5,13 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "solver/events/buckling.h"
 #include "solver/events/eigenpairs.h"
 #include "solver/problem/structural_problem.h"
 
 namespace snapthrough {
+
+/// Sense of the proportional actions for which buckling loads are computed.
+enum class LoadSense { as_given, reversed };
 
 /// @brief The pencil J(lambda) = J_0 + lambda G in the mixed unknowns at zero displacements and stresses s_c
 /// + lambda s_p (constant and proportional actions). For LoadSense::reversed, lambda multiplies the opposite

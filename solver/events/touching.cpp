@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/transfer.h"
 #include "solver/events/buckling.h"
 #include "solver/newton/corrector.h"

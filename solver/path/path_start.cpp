@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/numeric/rounding.h"
+#include "solver/problem/held_motions.h"
 
 namespace snapthrough {
 

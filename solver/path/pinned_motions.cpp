@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/problem/held_motions.h"
+
 namespace snapthrough {
 namespace {
 

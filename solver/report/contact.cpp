@@ -5,7 +5,6 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/layer_state.h"
 #include "solver/numeric/rounding.h"
-#include "solver/report/support_state.h"
 
 namespace snapthrough {
 namespace {

@@ -25,11 +25,6 @@ namespace snapthrough {
 [[nodiscard]] State make_state(const Structure& structure, const ResolvedModel& model,
                                const Eigen::VectorXd& y, double lambda, int points);
 
-/// Limits of a state that may be reported; ratios. Source: rounding leaves 1e-12 in random structures.
-struct StateLimits {
-  static constexpr double imbalance = 1e-9;  ///< sum of all actions and reactions, see imbalance()
-};
-
 /// @brief What is left of the sum of all actions and reactions in a state, over the largest force and the
 /// largest moment among them. The reactions are those that make_state() reports.
 /// @param y, lambda as for make_state()

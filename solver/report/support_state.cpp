@@ -15,7 +15,6 @@
 #include "solver/newton/corrector.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/resultant.h"
-#include "solver/report/state.h"
 
 namespace snapthrough {
 namespace {

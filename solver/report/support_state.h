@@ -10,6 +10,11 @@
 
 namespace snapthrough {
 
+/// Limits of a state that may be reported; ratios. Source: rounding leaves 1e-12 in random structures.
+struct StateLimits {
+  static constexpr double imbalance = 1e-9;  ///< sum of all actions and reactions, see imbalance()
+};
+
 /// @brief Fills `supports`, `springs`, `loads` and the resultants of `foundations` in a state.
 ///
 /// Reactions follow from equilibrium of the nodes along constrained directions: member end forces (unknowns

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/events/critical_sensitivity.h"
 #include "solver/problem/structural_problem.h"
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/events/bordered_point.h"
 #include "solver/events/critical_mode.h"
 #include "solver/path/soft_mode.h"

@@ -12,6 +12,7 @@
 #include "solver/model/analysis.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
+#include "solver/sweep/locus_curve.h"
 
 namespace snapthrough {
 
@@ -25,44 +26,6 @@ struct CriticalLocusRequest {
   /// point up to the second limit point on the paths of the first and of the last value.
   std::optional<int> number = {};
   std::stop_token stop = {};
-};
-
-/// Special points of a curve of critical points.
-enum class LocusEventType {
-  cusp,              ///< a maximum and a minimum of the load meet and vanish
-  fold_bifurcation,  ///< a limit point and a bifurcation meet
-  turn,              ///< two bifurcations meet and vanish
-  not_followed       ///< no point of the curve was found beyond this one, or at this value
-};
-
-struct LocusEvent {
-  LocusEventType type = LocusEventType::cusp;
-  double value = 0.0;  ///< value of the parameter
-  double load_factor = 0.0;
-};
-
-/// A critical point at one of the values.
-struct LocusLoad {
-  std::size_t value = 0;  ///< index of the value
-  double load_factor = 0.0;
-  CriticalType type = CriticalType::limit_max;
-};
-
-/// Where a curve ends.
-enum class LocusEnd {
-  first_value,
-  last_value,
-  not_followed,  ///< its next point is not found, or is no longer of its kind
-  steps,         ///< most steps
-  cancelled
-};
-
-/// One curve of limit points or of bifurcations.
-struct LocusCurve {
-  bool bifurcation = false;
-  std::vector<LocusLoad> loads;    ///< in the order of the curve; a value has as many as the curve passes it
-  std::vector<LocusEvent> events;  ///< in the order of the curve
-  LocusEnd end = LocusEnd::not_followed;
 };
 
 struct CriticalLocus {

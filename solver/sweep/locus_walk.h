@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "solver/sweep/critical_locus.h"
+#include "solver/sweep/locus_curve.h"
 #include "solver/sweep/locus_point.h"
 
 namespace snapthrough {

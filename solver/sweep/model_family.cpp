@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/analysis/analyses.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {

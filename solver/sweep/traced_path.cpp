@@ -5,6 +5,7 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/held_loads.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/free_motions.h"
 #include "solver/events/touching.h"
 #include "solver/resolve/resolved_model.h"

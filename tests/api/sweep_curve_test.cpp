@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 #include "api/sweep_unit.h"
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/openapi/document.h"
+#include "api/point_outcome.h"
 #include "api/result_schema.h"
 #include "api/sweep.h"
 #include "api/sweep_table.h"

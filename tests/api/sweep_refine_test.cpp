@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "api/point_outcome.h"
+#include "api/solved_point.h"
 #include "api/sweep.h"
 #include "api/sweep_table.h"
 #include "api/sweep_unit.h"

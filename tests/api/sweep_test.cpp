@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "api/point_outcome.h"
 #include "api/sweep_data.h"
 #include "api/sweep_table.h"
 #include "tests/api/documents.h"

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/front/listener.h"
+#include "server/front/listener_data.h"
 #include "tests/recorded.h"
 #include "tests/server/support/client.h"
 #include "tests/server/support/process.h"

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "server/worker/sanitizer.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/path/path_follower.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/resolve/resolved_model.h"

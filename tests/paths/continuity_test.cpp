@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/path/segment.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/resolve/resolved_model.h"

@@ -12,6 +12,7 @@
 
 #include "server/cli/app.h"
 #include "server/cli/part_file.h"
+#include "server/cli/streams.h"
 
 namespace snapthrough::server::cli {
 namespace {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "server/cli/app.h"
+#include "server/cli/streams.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/temp_dir.h"
 

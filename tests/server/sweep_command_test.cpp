@@ -9,6 +9,7 @@
 
 #include "server/cli/app.h"
 #include "server/cli/progress_bar.h"
+#include "server/cli/streams.h"
 
 namespace snapthrough::server::cli {
 namespace {

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/solve.h"
 #include "tests/stress/broad_model.h"
 #include "tests/stress/frame_model.h"

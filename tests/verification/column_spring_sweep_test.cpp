@@ -11,6 +11,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "api/point_outcome.h"
 #include "api/sweep.h"
 #include "solver/solve.h"
 #include "tests/verification/cases.h"

@@ -11,6 +11,7 @@
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/column/column_line.h"
 #include "solver/column/exact_column.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/mechanism.h"
 #include "solver/resolve/resolved_model.h"
 #include "tests/verification/cases.h"

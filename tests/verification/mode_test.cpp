@@ -3,6 +3,7 @@
 /// A mode's residual is J phi over the largest force at the elements' ends in phi. The second derivative of
 /// the energy along the mode, phi.J phi, changes its sign where stability is lost. The mode of a pinned arch
 /// is antisymmetric, that of its limit point symmetric.
+#include "solver/discrete/build_structure.h"
 #include "solver/events/critical_mode.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/resolve/resolved_model.h"

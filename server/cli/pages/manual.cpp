@@ -2,10 +2,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "server/cli/app.h"
-#include "server/cli/commands.h"
 #include "server/cli/pages/description.h"
 #include "server/cli/remote_arguments.h"
+#include "server/cli/streams.h"
 #include "server/settings.h"
 
 namespace snapthrough::server::cli {

@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 #include "tests/api/plot/svg_reader.h"
 
 namespace snapthrough::api {

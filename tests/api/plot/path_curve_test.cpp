@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/plot/plot.h"
+#include "api/plot/plot_request.h"
 #include "tests/api/plot/documents.h"
 #include "tests/api/plot/svg_reader.h"
 

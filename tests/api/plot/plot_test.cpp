@@ -8,6 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "api/plot/plot_error.h"
+#include "api/plot/plot_request.h"
 #include "tests/api/plot/documents.h"
 #include "tests/api/plot/svg_reader.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/resolve/resolved_model.h"
 #include "tests/solver/linear_response.h"
 #include "tests/solver/structures.h"

@@ -9,6 +9,7 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/accuracy/differences.h"
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/transfer.h"
 #include "solver/resolve/resolved_model.h"

@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/resolve/resolved_model.h"

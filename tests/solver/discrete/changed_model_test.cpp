@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/structure.h"
 #include "solver/numeric/pseudo_random.h"
 #include "solver/problem/structural_problem.h"

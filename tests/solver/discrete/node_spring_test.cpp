@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/resolve/rods.h"

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/problem/structural_problem.h"

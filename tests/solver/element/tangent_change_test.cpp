@@ -11,6 +11,7 @@
 #include <functional>
 #include <vector>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"

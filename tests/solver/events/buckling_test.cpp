@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/resolve/resolved_model.h"
 #include "tests/solver/structures.h"
 

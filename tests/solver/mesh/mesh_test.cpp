@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/discrete/structure.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/solve.h"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "solver/discrete/build_structure.h"
 #include "solver/newton/contact_state.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/report/contact.h"

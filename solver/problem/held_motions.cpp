@@ -1,4 +1,4 @@
-#include "solver/problem/holds.h"
+#include "solver/problem/held_motions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 
 #include "solver/numeric/dense.h"
 #include "solver/numeric/rounding.h"
-#include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough {
 
