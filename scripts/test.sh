@@ -34,6 +34,8 @@ python3 scripts/check_shape.py --self-test
 python3 scripts/check_shape.py
 python3 scripts/check_includes.py --self-test
 python3 scripts/check_includes.py
+python3 scripts/check_circles.py --self-test
+python3 scripts/check_circles.py
 python3 scripts/check_links.py --self-test
 python3 scripts/check_links.py
 python3 scripts/check_words.py --self-test
