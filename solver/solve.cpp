@@ -96,19 +96,19 @@ void analyse(const ResolvedModel& model, const Analysis& analysis, const Hooks& 
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:
-      run_path(model, analysis, structure, capacity.get(), hooks, result, visit);
+      run_path(analysis, structure, capacity.get(), hooks, result, visit);
       report_stop(hooks, result);
       break;
     case AnalysisType::static_:
-      run_static(model, analysis, structure, {held.factors, capacity.get()}, hooks, result);
+      run_static(analysis, structure, {held.factors, capacity.get()}, hooks, result);
       report_refused(held, result);
       break;
     case AnalysisType::vibration:
-      run_vibration(model, analysis, structure, {held.factors, capacity.get()}, hooks, result);
+      run_vibration(analysis, structure, {held.factors, capacity.get()}, hooks, result);
       report_refused(held, result);
       break;
     case AnalysisType::buckling:
-      run_buckling(model, analysis, structure, result);
+      run_buckling(analysis, structure, result);
       if (balance) withdraw_load_not_held(model, *balance, result);
       break;
   }

@@ -34,8 +34,7 @@ bool within(const std::vector<std::optional<double>>& errors, double accuracy) {
 
 }  // namespace
 
-BucklingLoads buckling_loads(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                             LoadSense sense) {
+BucklingLoads buckling_loads(const Analysis& analysis, const Structure& structure, LoadSense sense) {
   const bool fixed = analysis.discretization.fixed_mesh;
   BucklingLoads out;
   Level now = solve_on({std::shared_ptr<const Structure>(), &structure}, analysis.modes, sense, nullptr);
@@ -47,7 +46,7 @@ BucklingLoads buckling_loads(const ResolvedModel& model, const Analysis& analysi
     if (now.buckling.is_mechanism || now.buckling.held_share) break;
     auto mesh = finer_mesh(now.structure->mesh);
     if (!mesh) break;
-    Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))),
+    Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, *std::move(mesh))),
                           analysis.modes, sense, &now);
     factorizations += next.buckling.factorizations;
     out.factorizations = factorizations;

@@ -26,7 +26,7 @@ struct BucklingLoads {
 /// estimates are within the accuracy. A fixed mesh is estimated but not refined.
 /// @param structure structure on the first mesh
 /// @param sense `reversed`: loads of the opposite actions, see linear_buckling()
-[[nodiscard]] BucklingLoads buckling_loads(const ResolvedModel& model, const Analysis& analysis,
-                                           const Structure& structure, LoadSense sense = LoadSense::as_given);
+[[nodiscard]] BucklingLoads buckling_loads(const Analysis& analysis, const Structure& structure,
+                                           LoadSense sense = LoadSense::as_given);
 
 }  // namespace snapthrough

@@ -45,8 +45,7 @@ FineMesh* CriticalLoads::level(int number) {
     if (!mesh) return nullptr;
     const Discretization& asked = analysis_.discretization;
     const double tolerance = asked.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * asked.accuracy);
-    levels_.push_back(
-        std::make_unique<FineMesh>(with_finer_piece(model_, coarse, *mesh), model_, follower_, tolerance));
+    levels_.push_back(std::make_unique<FineMesh>(with_finer_piece(coarse, *mesh), follower_, tolerance));
   }
   return levels_[number - 1].get();
 }
@@ -107,15 +106,14 @@ void CriticalLoads::report(const Target& target, const Answer& answer) {
     set_values(structure, answer.found.event, point);
     const PathPoint& at = answer.found.equilibrium;
     // else the state stays that of the path's mesh
-    if (point.state && imbalance(structure, model_, at.y, at.lambda) <= StateLimits::imbalance) {
+    if (point.state && imbalance(structure, at.y, at.lambda) <= StateLimits::imbalance) {
       State& state = result_.states[*point.state];
       const int branch = state.branch;
-      state = make_state(structure, model_, at.y, at.lambda, analysis_.output.points_per_member);
+      state = make_state(structure, at.y, at.lambda, analysis_.output.points_per_member);
       state.branch = branch;
       state.refinements = answer.level;
       if (point.mode)
-        point.mode =
-            mode_at(structure, model_, levels_[answer.level - 1]->problem(), answer.found.event, analysis_);
+        point.mode = mode_at(structure, levels_[answer.level - 1]->problem(), answer.found.event, analysis_);
     }
   }
   if (is_first) {

@@ -38,14 +38,9 @@ class CriticalLoads final : public PathObserver {
  public:
   /// @param earlier critical points of the path on a coarser mesh; kept by reference
   /// @param follower of the path; it has to be alive and started when confirm() is called
-  CriticalLoads(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                const PathFollower& follower, const std::vector<CriticalPoint>& earlier, Result& result)
-      : model_(model),
-        analysis_(analysis),
-        structure_(structure),
-        follower_(follower),
-        earlier_(earlier),
-        result_(result) {}
+  CriticalLoads(const Analysis& analysis, const Structure& structure, const PathFollower& follower,
+                const std::vector<CriticalPoint>& earlier, Result& result)
+      : analysis_(analysis), structure_(structure), follower_(follower), earlier_(earlier), result_(result) {}
 
   void on_point(const PathPoint& point) override { last_ = point; }
   /// Remembers a critical point. @pre an observer before this one has added the point to the result
@@ -86,7 +81,6 @@ class CriticalLoads final : public PathObserver {
   void report(const Target& target, const Answer& answer);
   void report_meshes(int finest, double largest, int without, std::string& text);
 
-  const ResolvedModel& model_;
   const Analysis& analysis_;
   const Structure& structure_;
   const PathFollower& follower_;

@@ -6,8 +6,8 @@
 
 namespace snapthrough {
 
-std::vector<double> bending_decays(const Structure& structure, const ResolvedModel& model,
-                                   const Eigen::VectorXd& y) {
+std::vector<double> bending_decays(const Structure& structure, const Eigen::VectorXd& y) {
+  const ResolvedModel& model = *structure.model;
   std::vector<double> decays;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const ResolvedMember& member = model.members[m];

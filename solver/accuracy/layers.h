@@ -16,7 +16,6 @@ namespace snapthrough {
 /// Bending decays as exp(-s sqrt(N / EI)) under tension N, and as exp(-s sqrt(K / GA)) on a foundation of
 /// modulus K in shearable members. In thin members these lengths are much shorter than all lengths known
 /// before the analysis.
-[[nodiscard]] std::vector<double> bending_decays(const Structure& structure, const ResolvedModel& model,
-                                                 const Eigen::VectorXd& y);
+[[nodiscard]] std::vector<double> bending_decays(const Structure& structure, const Eigen::VectorXd& y);
 
 }  // namespace snapthrough

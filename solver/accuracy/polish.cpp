@@ -36,10 +36,8 @@ std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<
 
 }  // namespace
 
-FineMesh::FineMesh(Structure structure, const ResolvedModel& model, const PathFollower& measure,
-                   double tolerance)
+FineMesh::FineMesh(Structure structure, const PathFollower& measure, double tolerance)
     : structure_(std::move(structure)),
-      model_(model),
       problem_(structure_),
       follower_(problem_, patient(measure.options())),
       tolerance_(tolerance) {
@@ -94,8 +92,7 @@ std::optional<FoundPoint> FineMesh::growth_near(const CriticalEvent& known, cons
   const auto before = corrected(at, -1.0, reach);
   const auto after = corrected(at, 1.0, reach);
   if (!before || !after) return std::nullopt;
-  const auto event =
-      FlutterSearch(structure_, model_).on_step(follower_.solver(), *before, *after, tolerance_).loss;
+  const auto event = FlutterSearch(structure_).on_step(follower_.solver(), *before, *after, tolerance_).loss;
   if (!event || event->type != known.type || event->cause != known.cause) return std::nullopt;
   return FoundPoint{*event, event->point};
 }

@@ -34,8 +34,7 @@ class FineMesh {
  public:
   /// @param measure follower that has started on a coarser mesh; its norm and load scale are used here
   /// @param tolerance relative load factor tolerance of located points
-  /// @param model of the structure; kept by reference
-  FineMesh(Structure structure, const ResolvedModel& model, const PathFollower& measure, double tolerance);
+  FineMesh(Structure structure, const PathFollower& measure, double tolerance);
 
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
@@ -73,7 +72,6 @@ class FineMesh {
                                                  double distance);
 
   Structure structure_;
-  const ResolvedModel& model_;
   StructuralProblem problem_;
   PathFollower follower_;
   double tolerance_;

@@ -21,7 +21,8 @@ using Eigen::VectorXd;
 /// Whether the one-sided foundations of a member react with the stiffness of the model on all its elements.
 /// Else the peaks of their reaction at the ends of contact are those of the mesh, and so is the shear force
 /// there.
-bool is_resolved(const Structure& structure, const ResolvedModel& model, std::size_t member) {
+bool is_resolved(const Structure& structure, std::size_t member) {
+  const ResolvedModel& model = *structure.model;
   const auto first = structure.stiffest.begin() + structure.mesh.first[member];
   const auto end = structure.stiffest.begin() + structure.mesh.first[member + 1];
   const double bound = *std::min_element(first, end);
@@ -111,8 +112,8 @@ std::array<double, 6> largest_unknowns(const Structure& structure, const VectorX
 /// Force that is rounding beside the loads, and beside those that would bend the softest section as the
 /// displacements do: a statically determinate structure that is strained has displacements and no forces, and
 /// a block that lies evenly on a bed has loads and no section forces.
-double least_force_of(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
-                      double lambda) {
+double least_force_of(const Structure& structure, const VectorXd& y, double lambda) {
+  const ResolvedModel& model = *structure.model;
   double softest = std::numeric_limits<double>::infinity();
   for (const Section& section : model.sections) softest = std::min(softest, section.EI.least());
   double gradient = 0.0;
@@ -126,26 +127,26 @@ double least_force_of(const Structure& structure, const ResolvedModel& model, co
 
 }  // namespace
 
-StateValues values_of(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
-                      double lambda, bool halves) {
+StateValues values_of(const Structure& structure, const VectorXd& y, double lambda, bool halves) {
+  const ResolvedModel& model = *structure.model;
   StateValues out;
   const std::vector<LayerState> layers = layer_states(structure, y);
   for (std::size_t m = 0; m + 1 < structure.mesh.first.size(); ++m) {
     const int first = structure.mesh.first[m];
     for (auto& values : out.of) values.emplace_back();
-    const bool shear = is_resolved(structure, model, m);
+    const bool shear = is_resolved(structure, m);
     for (int e = first; e < structure.mesh.first[m + 1]; ++e) {
       const ElementReader reader(structure, y, e);
-      const SectionForces forces(structure, model, y, lambda, layers, e);
+      const SectionForces forces(structure, y, lambda, layers, e);
       if (e == first) add_place(structure, e, 0.0, shear, reader, forces, out);
       for (const double xi : places_of(halves)) add_place(structure, e, xi, shear, reader, forces, out);
     }
   }
-  out.least_force = least_force_of(structure, model, y, lambda);
+  out.least_force = least_force_of(structure, y, lambda);
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const bool turns = !model.springs[i].direction && !model.springs[i].rod;
     out[turns ? ValueKind::moment : ValueKind::axial_force].push_back(
-        {std::abs(reading_of(structure, model, i, y).force)});
+        {std::abs(reading_of(structure, i, y).force)});
   }
   return out;
 }

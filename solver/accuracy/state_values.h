@@ -29,8 +29,8 @@ struct StateValues {
 /// @brief The numbers of a state at the start of each member and at places of each element.
 /// @param y, lambda scaled unknowns and scaled load factor
 /// @param halves elements are the halves of a coarser mesh: they have half as many places, the same ones
-[[nodiscard]] StateValues values_of(const Structure& structure, const ResolvedModel& model,
-                                    const Eigen::VectorXd& y, double lambda, bool halves);
+[[nodiscard]] StateValues values_of(const Structure& structure, const Eigen::VectorXd& y, double lambda,
+                                    bool halves);
 
 /// @brief Error of the coarser of two states in the largest magnitudes of its members, over the largest of
 /// the kind in the structure.

@@ -173,9 +173,13 @@ void halve_on_rigid(const ResolvedModel& model, const Mesh& mesh, std::vector<in
 /// Compares states on a mesh and its halved one, and refines both.
 class Refinement {
  public:
-  Refinement(const ResolvedModel& model, const Discretization& asked, const Structure& structure,
-             const std::vector<StaticState>& states, const FindStates& find)
-      : model_(model), accuracy_(asked.accuracy), find_(find), first_(structure), of_first_(states) {
+  Refinement(const Discretization& asked, const Structure& structure, const std::vector<StaticState>& states,
+             const FindStates& find)
+      : model_(*structure.model),
+        accuracy_(asked.accuracy),
+        find_(find),
+        first_(structure),
+        of_first_(states) {
     level_ = std::make_unique<MeshStates>(
         std::shared_ptr<const Structure>(std::shared_ptr<const Structure>(), &structure));
     out_.states = states;
@@ -189,8 +193,7 @@ class Refinement {
   [[nodiscard]] bool take_all();
   [[nodiscard]] bool find_on(const MeshStates& mesh, StaticState& state);
   [[nodiscard]] std::unique_ptr<MeshStates> on(Mesh mesh) const {
-    return std::make_unique<MeshStates>(
-        std::make_shared<const Structure>(on_mesh(first_, model_, std::move(mesh))));
+    return std::make_unique<MeshStates>(std::make_shared<const Structure>(on_mesh(first_, std::move(mesh))));
   }
 
   const ResolvedModel& model_;
@@ -228,8 +231,8 @@ bool Refinement::compare() {
     StaticState next = fine_->transferred(level_->structure(), state);
     if (!fine_->approach(next) && !fine_->settle(next) && !find_on(*fine_, next)) return false;
     const double difference =
-        relative_error(values_of(level_->structure(), model_, state.y, state.lambda, false),
-                       values_of(fine_->structure(), model_, next.y, next.lambda, true), accuracy_);
+        relative_error(values_of(level_->structure(), state.y, state.lambda, false),
+                       values_of(fine_->structure(), next.y, next.lambda, true), accuracy_);
     if (!(difference > largest)) continue;
     largest = difference;
     worst_ = std::move(next);
@@ -247,7 +250,7 @@ bool Refinement::refine() {
   halve_on_rigid(model_, coarse.mesh, halvings);
   Mesh mesh = with_halved(coarse.mesh, halvings);
   if (out_.refinements == 0)
-    mesh = layered_mesh(mesh, model_, first_.axes, bending_decays(fine_->structure(), model_, worst_.y));
+    mesh = layered_mesh(mesh, model_, first_.axes, bending_decays(fine_->structure(), worst_.y));
   if (!finer_mesh(mesh)) return false;
   auto next = on(std::move(mesh));
   StaticState state = next->transferred(fine_->structure(), worst_);
@@ -320,10 +323,9 @@ void report_accuracy(const RefinedStates& refined, const Discretization& asked, 
   fail(result, "not_confirmed", why + " (" + reached + ")");
 }
 
-RefinedStates refine_states(const ResolvedModel& model, const Discretization& asked,
-                            const Structure& structure, const std::vector<StaticState>& states,
-                            const FindStates& find) {
-  return Refinement(model, asked, structure, states, find).run();
+RefinedStates refine_states(const Discretization& asked, const Structure& structure,
+                            const std::vector<StaticState>& states, const FindStates& find) {
+  return Refinement(asked, structure, states, find).run();
 }
 
 }  // namespace snapthrough

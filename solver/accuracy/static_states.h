@@ -54,9 +54,8 @@ struct RefinedStates {
 /// @param states one or more
 /// @param find called where Newton's method does not lead from the transferred state to one of the same
 /// inertia
-[[nodiscard]] RefinedStates refine_states(const ResolvedModel& model, const Discretization& asked,
-                                          const Structure& structure, const std::vector<StaticState>& states,
-                                          const FindStates& find);
+[[nodiscard]] RefinedStates refine_states(const Discretization& asked, const Structure& structure,
+                                          const std::vector<StaticState>& states, const FindStates& find);
 
 /// @brief Writes mesh, error estimate and the work for them into a result; fails with `not_confirmed` where
 /// the estimate exceeds the accuracy or a finer mesh does not have a state.

@@ -37,21 +37,19 @@ struct HeldRows {
 /// Runs the analyses `path` and `critical`: follows the equilibrium path.
 /// @param visit may be empty
 /// @param capacity limit loads of the model's supports; null: there are none
-void run_path(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-              const CapacityEnds* capacity, const Hooks& hooks, Result& result,
-              const CriticalVisitor& visit = {});
+void run_path(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+              const Hooks& hooks, Result& result, const CriticalVisitor& visit = {});
 /// Runs the analysis `static`: equilibrium at given load factors, with large or small displacements.
 /// @param held loads that are computed: the others are reported as not reached
 /// @param visit receives each state; may be empty
-void run_static(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                const HeldRows& held, const Hooks& hooks, Result& result, const StateVisitor& visit = {});
+void run_static(const Analysis& analysis, const Structure& structure, const HeldRows& held,
+                const Hooks& hooks, Result& result, const StateVisitor& visit = {});
 /// Runs the analysis `vibration`: small free vibrations about the equilibria at given load factors.
 /// @param held as in run_static()
-void run_vibration(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                   const HeldRows& held, const Hooks& hooks, Result& result);
+void run_vibration(const Analysis& analysis, const Structure& structure, const HeldRows& held,
+                   const Hooks& hooks, Result& result);
 /// Runs the analysis `buckling`: linearised buckling loads about the reference load.
-void run_buckling(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                  Result& result);
+void run_buckling(const Analysis& analysis, const Structure& structure, Result& result);
 
 /// @brief Runs `buckling` for a straight column by its differential equation.
 /// @return false, with `result` unchanged, when the model is no such column or the request fixes a mesh
@@ -90,16 +88,16 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
 /// Constant actions are applied along a separate path from zero to their full size.
 /// @param on_unloaded receives the unloaded state with its modes; may be empty
 /// @return without a point, with the failure in `result`, when there is no such state or it is not stable
-[[nodiscard]] PathStart start_of_path(const ResolvedModel& model, const Structure& structure,
-                                      StructuralProblem& problem, PointSolver& solver, double direction,
-                                      const Hooks& hooks, Result& result,
+[[nodiscard]] PathStart start_of_path(const Structure& structure, StructuralProblem& problem,
+                                      PointSolver& solver, double direction, const Hooks& hooks,
+                                      Result& result,
                                       const std::function<void(const PathPoint&)>& on_unloaded = {});
 
 /// @brief Start of the path at Analysis::start, corrected on the structure's mesh.
 /// @return without a point, with the failure `no_start` in `result`, when no equilibrium is within a fiftieth
 /// of the given displacement gradients
 /// @pre analysis.start
-[[nodiscard]] PathStart start_at_state(const ResolvedModel& model, const Structure& structure,
-                                       PointSolver& solver, const Analysis& analysis, Result& result);
+[[nodiscard]] PathStart start_at_state(const Structure& structure, PointSolver& solver,
+                                       const Analysis& analysis, Result& result);
 
 }  // namespace snapthrough

@@ -44,8 +44,8 @@ bool moves_rigidly(const Mode& motion) {
 }  // namespace
 
 std::optional<CapacityRule> capacity_rule(const CapacityEnds* ends, const Structure& structure,
-                                          const ResolvedModel& model, StructuralProblem& problem,
-                                          const std::vector<double>& asked) {
+                                          StructuralProblem& problem, const std::vector<double>& asked) {
+  const ResolvedModel& model = *structure.model;
   if (ends == nullptr) return std::nullopt;
   constexpr double any = std::numeric_limits<double>::infinity();
   const double scale = structure.scales.load;
@@ -58,8 +58,7 @@ std::optional<CapacityRule> capacity_rule(const CapacityEnds* ends, const Struct
     rule.range = {std::min(rule.range[0], factor * scale), std::max(rule.range[1], factor * scale)};
   }
   rule.moves_rigidly = [&structure, &model, &problem](const CriticalEvent& event) {
-    return moves_rigidly(
-        mode_displacements(structure, model, mode_of(problem, event), CapacityLimits::points));
+    return moves_rigidly(mode_displacements(structure, mode_of(problem, event), CapacityLimits::points));
   };
   return rule;
 }
@@ -79,8 +78,8 @@ std::string report_capacity(const CapacityEnds& ends, const ResolvedModel& model
 }
 
 void report_capacity_point(const Analysis& analysis, const CapacityEnds& ends, const Structure& structure,
-                           const ResolvedModel& model, const TraceOutcome& outcome, std::size_t count,
-                           Result& result) {
+                           const TraceOutcome& outcome, std::size_t count, Result& result) {
+  const ResolvedModel& model = *structure.model;
   if (!outcome.on_critical) {
     CriticalPoint point;
     point.load_factor = capacity_load(ends, structure, outcome);
@@ -102,7 +101,7 @@ void report_capacity_point(const Analysis& analysis, const CapacityEnds& ends, c
   summary.critical_load_factor = point.load_factor;
   summary.critical_type = point.type;
   summary.error_estimate = point.error_estimate;
-  if (!summary.at_critical) summary.at_critical = at_critical(structure, model, outcome.last.y);
+  if (!summary.at_critical) summary.at_critical = at_critical(structure, outcome.last.y);
 }
 
 std::string report_exceeded(const ResolvedModel& model, const CapacityEnds& ends,

@@ -20,9 +20,8 @@ namespace snapthrough {
 /// @brief Rule that ends a path at the capacity of the structure's supports; empty: they hold any load.
 /// @param ends limit loads of the model; null: there are none
 /// @param asked load factors at which states are asked for; the path goes on to those below a limit
-/// @param structure, model, problem kept by reference; must outlive the rule
+/// @param structure, problem kept by reference; must outlive the rule
 [[nodiscard]] std::optional<CapacityRule> capacity_rule(const CapacityEnds* ends, const Structure& structure,
-                                                        const ResolvedModel& model,
                                                         StructuralProblem& problem,
                                                         const std::vector<double>& asked);
 
@@ -45,8 +44,7 @@ namespace snapthrough {
 /// @param count critical points of the primary path in the result
 /// @pre outcome.end is TraceEnd::capacity
 void report_capacity_point(const Analysis& analysis, const CapacityEnds& ends, const Structure& structure,
-                           const ResolvedModel& model, const TraceOutcome& outcome, std::size_t count,
-                           Result& result);
+                           const TraceOutcome& outcome, std::size_t count, Result& result);
 
 /// @brief Adds the limits of a model, as small displacements have them, that load factors exceed.
 /// @return sentence on the first of them; empty: all load factors are held

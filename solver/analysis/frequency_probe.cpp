@@ -18,9 +18,8 @@ struct RowTolerance {
 
 }  // namespace
 
-FrequencyProbe::FrequencyProbe(const Structure& structure, const ResolvedModel& model,
-                               const Analysis& analysis)
-    : structure_(structure), problem_(structure), masses_(make_mass_matrix(structure, model)) {
+FrequencyProbe::FrequencyProbe(const Structure& structure, const Analysis& analysis)
+    : structure_(structure), problem_(structure), masses_(make_mass_matrix(structure)) {
   const Discretization& mesh = analysis.discretization;
   is_asked_alone_ = analysis.type == AnalysisType::vibration;
   search_.count = is_asked_alone_ ? analysis.modes : analysis.output.frequencies;

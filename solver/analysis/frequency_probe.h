@@ -22,7 +22,7 @@ class FrequencyProbe {
   /// @param analysis of type vibration: what its rows lack is told with them; of another type: how many
   /// frequencies its rows have, to a thousandth of its accuracy
   /// @pre has_mass(model)
-  FrequencyProbe(const Structure& structure, const ResolvedModel& model, const Analysis& analysis);
+  FrequencyProbe(const Structure& structure, const Analysis& analysis);
 
   /// @param y, lambda scaled unknowns and load factor of an equilibrium
   /// @return empty: one-sided supports touch without pressure, so that small vibrations are not linear; or,

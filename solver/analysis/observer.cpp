@@ -18,7 +18,7 @@ void Observer::note_strain(const Eigen::VectorXd& y, double lambda, int branch) 
 
 void Observer::add_to_extremes(const Eigen::VectorXd& y, double lambda, int branch) {
   if (!analysis_.output.extremes) return;
-  widen_extremes(member_states(structure_, model_, y, lambda, analysis_.output.points_per_member), branch,
+  widen_extremes(member_states(structure_, y, lambda, analysis_.output.points_per_member), branch,
                  lambda / structure_.scales.load, extremes_);
 }
 

@@ -15,9 +15,9 @@ namespace snapthrough {
 /// Examines each state of an analysis, including states that the result does not list.
 class Observer {
  public:
-  /// @param model, analysis, structure kept by reference; must outlive this object
-  Observer(const ResolvedModel& model, const Analysis& analysis, const Structure& structure)
-      : model_(model), analysis_(analysis), structure_(structure), gauge_(structure, model) {}
+  /// @param analysis, structure kept by reference; must outlive this object
+  Observer(const Analysis& analysis, const Structure& structure)
+      : model_(*structure.model), analysis_(analysis), structure_(structure), gauge_(structure) {}
 
   /// Records the largest strain at scaled unknowns y and scaled load factor lambda.
   void note_strain(const Eigen::VectorXd& y, double lambda, int branch);

@@ -11,16 +11,16 @@
 namespace snapthrough {
 namespace {
 
-bool is_balanced(const ResolvedModel& model, const RefinedStates& refined) {
+bool is_balanced(const RefinedStates& refined) {
   const StaticState& at = refined.states.front();
-  return imbalance(*refined.structure, model, at.y, at.lambda) <= StateLimits::imbalance;
+  return imbalance(*refined.structure, at.y, at.lambda) <= StateLimits::imbalance;
 }
 
 /// Replaces a state by that of a finer mesh.
-void replace(const ResolvedModel& model, const Analysis& analysis, const RefinedStates& refined,
+void replace(const Analysis& analysis, const RefinedStates& refined,
              State& state) {
   const StaticState& at = refined.states.front();
-  State finer = make_state(*refined.structure, model, at.y, at.lambda, analysis.output.points_per_member);
+  State finer = make_state(*refined.structure, at.y, at.lambda, analysis.output.points_per_member);
   finer.branch = state.branch;
   finer.load_factor = state.load_factor;
   finer.refinements = refined.refinements;
@@ -29,7 +29,7 @@ void replace(const ResolvedModel& model, const Analysis& analysis, const Refined
 
 }  // namespace
 
-void refine_path_states(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
+void refine_path_states(const Analysis& analysis, const Structure& structure,
                         const std::vector<StaticState>& states, const std::stop_token& stop, Result& result) {
   const FindStates no_other = [](const Structure&, const std::vector<StaticState>&) {
     return std::vector<StaticState>();
@@ -38,14 +38,14 @@ void refine_path_states(const ResolvedModel& model, const Analysis& analysis, co
   std::size_t doubtful = 0;
   for (const StaticState& asked : states) {
     if (stop.stop_requested()) return;
-    const RefinedStates refined = refine_states(model, analysis.discretization, structure, {asked}, no_other);
+    const RefinedStates refined = refine_states(analysis.discretization, structure, {asked}, no_other);
     result.diagnostics.factorizations += refined.factorizations;
     State& state = result.states[asked.row];
     // a state that stays was judged when it was recorded
     const bool is_finer = refined.refinements > 0;
     const bool is_confirmed = refined.error && *refined.error <= analysis.discretization.accuracy &&
-                              (!is_finer || is_balanced(model, refined));
-    if (is_confirmed && is_finer) replace(model, analysis, refined, state);
+                              (!is_finer || is_balanced(refined));
+    if (is_confirmed && is_finer) replace(analysis, refined, state);
     if (is_confirmed) {
       state.error_estimate = refined.error;
       continue;

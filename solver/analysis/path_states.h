@@ -22,7 +22,7 @@ namespace snapthrough {
 /// @param structure structure on the mesh of the unknowns in `states`
 /// @param states StaticState::row is the index into Result::states
 /// @param stop ends the refinement; states that were not compared have no estimate
-void refine_path_states(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
+void refine_path_states(const Analysis& analysis, const Structure& structure,
                         const std::vector<StaticState>& states, const std::stop_token& stop, Result& result);
 
 }  // namespace snapthrough

@@ -27,11 +27,11 @@ std::vector<NamedValue> Recorder::monitors(const PathPoint& point) const {
 double Recorder::user_load(const PathPoint& point) const { return point.lambda / structure_.scales.load; }
 
 std::optional<int> Recorder::add_state(const PathPoint& point, double most) {
-  if (const double left = imbalance(structure_, model_, point.y, point.lambda); !(left <= most)) {
+  if (const double left = imbalance(structure_, point.y, point.lambda); !(left <= most)) {
     refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(user_load(point), left);
     return std::nullopt;
   }
-  State state = make_state(structure_, model_, point.y, point.lambda, analysis_.output.points_per_member);
+  State state = make_state(structure_, point.y, point.lambda, analysis_.output.points_per_member);
   state.branch = branch_;
   result_.states.push_back(std::move(state));
   return static_cast<int>(result_.states.size()) - 1;
@@ -93,7 +93,7 @@ void Recorder::add_row(const PathRow& row) {
     branch.frequencies.push_back(found ? std::optional(probe_->in_units(*found)) : std::nullopt);
     if (found) result_.diagnostics.factorizations += found->factorizations;
   }
-  const auto contact = contact_fractions(structure_, model_, point.y);
+  const auto contact = contact_fractions(structure_, point.y);
   for (std::size_t i = 0; i < contact.size(); ++i) branch.contact_fraction[i].values.push_back(contact[i]);
 }
 
@@ -143,10 +143,10 @@ void Recorder::add_critical(const CriticalEvent& event) {
     // the tangent is singular there: Newton's method ends with its bound of the residual
     point.state = add_state(event.point, solver_.options().largest_residual);
   if (event.null.size() > 0 && point.multiplicity == 1 && !grows)
-    if (const auto member = member_that_buckles(structure_, model_, event.null.col(0)))
+    if (const auto member = member_that_buckles(structure_, event.null.col(0)))
       point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
-    point.mode = mode_at(structure_, model_, solver_.problem(), event, analysis_);
+    point.mode = mode_at(structure_, solver_.problem(), event, analysis_);
   if (!passed_by && analysis_.type == AnalysisType::path) kept_.add_critical(event);
   if (is_loss_of_stability(analysis_, point) && !result_.summary.critical_load_factor) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
@@ -154,7 +154,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     result_.summary.critical_type = point.type;
     if (!grows) softest_.lose(event.point);
     if (event.cause == CriticalCause::smooth && !grows) lost_ = event.point.arc_length;
-    result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
+    result_.summary.at_critical = at_critical(structure_, event.point.y);
   }
   result_.critical_points.push_back(std::move(point));
 }
@@ -188,7 +188,7 @@ void Recorder::end_branch(const char* code) {
 
 void Recorder::finish(bool last) {
   if (last && !analysis_.discretization.fixed_mesh)
-    refine_path_states(model_, analysis_, structure_, asked_states_, hooks_.stop, result_);
+    refine_path_states(analysis_, structure_, asked_states_, hooks_.stop, result_);
   if (!refused_.empty() && !result_.failure) fail(result_, "no_convergence", refused_);
   for (std::size_t i = 0; i < reached_.size(); ++i)
     if (!reached_[i]) result_.not_reached.push_back(analysis_.output.at_load_factors[i]);

@@ -26,21 +26,21 @@ struct Structure;
 /// Records the path, its critical points and the requested states.
 class Recorder final : public PathObserver {
  public:
-  Recorder(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-           PointSolver& solver, SoftestPoint& softest, const Hooks& hooks, Result& result)
-      : model_(model),
+  Recorder(const Analysis& analysis, const Structure& structure, PointSolver& solver, SoftestPoint& softest,
+           const Hooks& hooks, Result& result)
+      : model_(*structure.model),
         analysis_(analysis),
         structure_(structure),
         solver_(solver),
         softest_(softest),
         hooks_(hooks),
         result_(result),
-        zones_(structure, model),
-        neutral_(structure, model, result.neutral_motion),
-        observer_(model, analysis, structure),
+        zones_(structure),
+        neutral_(structure, result.neutral_motion),
+        observer_(analysis, structure),
         reached_(analysis.output.at_load_factors.size(), 0) {
     if (analysis.output.frequencies > 0 && analysis.type == AnalysisType::path)
-      probe_.emplace(structure, model, analysis);
+      probe_.emplace(structure, analysis);
   }
 
   /// What a path reports is recorded under `branch` from now on. To be called before each path.

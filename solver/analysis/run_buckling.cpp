@@ -19,7 +19,6 @@
 #include "solver/report/mode.h"
 #include "solver/report/neutral_motion.h"
 #include "solver/report/result_parts.h"
-#include "solver/support/joined_supports.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -53,9 +52,9 @@ struct ContactShares {
   std::map<std::string, bool> springs;  ///< by kind and id; rods are members
 };
 
-/// @param laws the model with opposite supports joined
-ContactShares shares_of(const Structure& structure, const ResolvedModel& laws,
-                        const StructuralProblem& problem, const FrozenContact& contact) {
+ContactShares shares_of(const Structure& structure, const StructuralProblem& problem,
+                        const FrozenContact& contact) {
+  const ResolvedModel& laws = *structure.laws;
   ContactShares out;
   for (std::size_t i = 0; i < laws.foundations.size(); ++i) {
     const ResolvedFoundation& foundation = laws.foundations[i];
@@ -95,7 +94,8 @@ std::string contact_text(const ContactShares& shares, bool joined) {
 
 /// Whether contact can depend on the load factor. The linear response to a single set of actions without gaps
 /// is proportional to the load factor, and its contact constant.
-bool contact_depends_on_load(const Structure& structure, const ResolvedModel& laws) {
+bool contact_depends_on_load(const Structure& structure) {
+  const ResolvedModel& laws = *structure.laws;
   const auto has_gap = [](const auto& support) { return is_one_sided(support) && support.gap > 0.0; };
   return structure.has_constant || std::any_of(laws.springs.begin(), laws.springs.end(), has_gap) ||
          std::any_of(laws.foundations.begin(), laws.foundations.end(), has_gap);
@@ -103,15 +103,14 @@ bool contact_depends_on_load(const Structure& structure, const ResolvedModel& la
 
 /// Warns when contact under the critical load differs from that under the reference load, on which the
 /// linearised analysis is based.
-void warn_of_changed_contact(const Structure& structure, const ResolvedModel& laws,
-                             StructuralProblem& problem, const LinearBuckling& buckling, Result& result) {
-  if (!structure.one_sided || !result.summary.critical_load_factor ||
-      !contact_depends_on_load(structure, laws))
+void warn_of_changed_contact(const Structure& structure, StructuralProblem& problem,
+                             const LinearBuckling& buckling, Result& result) {
+  if (!structure.one_sided || !result.summary.critical_load_factor || !contact_depends_on_load(structure))
     return;
   const auto contact = linear_contact(problem, buckling.loads.front(), result.diagnostics.factorizations);
   if (!contact) return;
-  const ContactShares reference = shares_of(structure, laws, problem, buckling.pressed);
-  const ContactShares critical = shares_of(structure, laws, problem, *contact);
+  const ContactShares reference = shares_of(structure, problem, buckling.pressed);
+  const ContactShares critical = shares_of(structure, problem, *contact);
   std::string changes;
   for (const auto& [id, length] : reference.foundations) {
     const double then = critical.foundations.at(id).share();
@@ -202,7 +201,7 @@ FoundLoads found_loads(const ResolvedModel& model, const Analysis& analysis, con
   for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
     found.loads.push_back(buckling.loads[i] / loads.structure->scales.load);
     found.modes.push_back(
-        mode_displacements(*loads.structure, model, buckling.modes[i], analysis.output.points_per_member));
+        mode_displacements(*loads.structure, buckling.modes[i], analysis.output.points_per_member));
     scale_to_largest(found.modes.back());
     std::vector<double> compressions;
     for (const double force : buckling.compressions[i])
@@ -279,9 +278,9 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
   result.buckling = in_order(std::move(found), std::move(reversed));
 }
 
-void run_buckling(const ResolvedModel& model, const Analysis& analysis, const Structure& first,
-                  Result& result) {
-  const BucklingLoads loads = buckling_loads(model, analysis, first);
+void run_buckling(const Analysis& analysis, const Structure& first, Result& result) {
+  const ResolvedModel& model = *first.model;
+  const BucklingLoads loads = buckling_loads(analysis, first);
   const Structure& structure = *loads.structure;
   const LinearBuckling& buckling = loads.buckling;
   result.diagnostics.factorizations += loads.factorizations;
@@ -295,11 +294,11 @@ void run_buckling(const ResolvedModel& model, const Analysis& analysis, const St
     fail(result, "not_held", unheld_reference(*buckling.held_share));
     return;
   }
-  NeutralMotionLog(structure, model, result.neutral_motion).note(buckling.holds, 0.0);
+  NeutralMotionLog(structure, result.neutral_motion).note(buckling.holds, 0.0);
   report_mesh(structure, loads.level, result);
   FoundLoads reversed;
   if (analysis.reversed && buckling.negative_at_start == 0) {
-    const BucklingLoads others = buckling_loads(model, analysis, first, LoadSense::reversed);
+    const BucklingLoads others = buckling_loads(analysis, first, LoadSense::reversed);
     result.diagnostics.factorizations += others.factorizations;
     reversed = found_loads(model, analysis, others);
     if (others.level > loads.level) report_mesh(*others.structure, others.level, result);
@@ -307,18 +306,16 @@ void run_buckling(const ResolvedModel& model, const Analysis& analysis, const St
   report_buckling(analysis, found_loads(model, analysis, loads), std::move(reversed), result);
   warn_of_touching(structure, buckling.piece, result);
   StructuralProblem problem(structure);
-  const std::optional<ResolvedModel> joined = with_joined_supports(model);
-  const ResolvedModel& laws = joined ? *joined : model;
   // without one-sided supports no contact was frozen
   const ContactShares shares =
-      structure.one_sided ? shares_of(structure, laws, problem, buckling.contact) : ContactShares{};
-  result.summary.message += contact_text(shares, joined.has_value());
+      structure.one_sided ? shares_of(structure, problem, buckling.contact) : ContactShares{};
+  result.summary.message += contact_text(shares, structure.laws != structure.model);
   report_errors(analysis, result);
   if (!buckling.complete && buckling.negative_at_start == 0) {
     withdraw_critical_load(result);
     fail(result, "no_convergence", kIncomplete);
   }
-  warn_of_changed_contact(structure, laws, problem, buckling, result);
+  warn_of_changed_contact(structure, problem, buckling, result);
   warn_of_changed_laws(structure, problem, buckling, result);
 }
 
@@ -347,7 +344,7 @@ ModeOffsets mode_offsets(const ResolvedModel& model, const Analysis& analysis, c
   for (const ResolvedImperfection& imperfection : model.imperfections) {
     const auto* mode = std::get_if<ModeImperfection>(&imperfection);
     if (mode == nullptr || mode->amplitude == 0.0) continue;
-    const auto splines = normal_offsets(structure, model, buckling.modes[mode->number - 1], mode->amplitude);
+    const auto splines = normal_offsets(structure, buckling.modes[mode->number - 1], mode->amplitude);
     for (std::size_t m = 0; m < splines.size(); ++m) offsets[m].push_back(splines[m]);
   }
   return offsets;

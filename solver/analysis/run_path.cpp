@@ -52,13 +52,14 @@ const SparseRow* row_of(const Structure& structure, const std::string& monitor) 
   return &found->row;
 }
 
-TraceRules rules_of(const ResolvedModel& model, const Analysis& analysis, const Structure& structure) {
+TraceRules rules_of(const Analysis& analysis, const Structure& structure) {
+  const ResolvedModel& model = *structure.model;
   TraceRules rules;
   rules.locate = locate_options(model, analysis);
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;
     rules.steps = PathLimits::search_steps;
-    rules.beyond_theory = [gauge = StrainGauge(structure, model)](const PathPoint& at) {
+    rules.beyond_theory = [gauge = StrainGauge(structure)](const PathPoint& at) {
       return gauge.is_beyond_theory(at.y);
     };
     return rules;
@@ -255,11 +256,10 @@ struct Pending {
 /// Follows branches of the primary path, and branches of those, within the request's limits.
 class BranchFollower {
  public:
-  BranchFollower(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                 PathFollower& follower, Recorder& recorder, CriticalLoads& loads, MonitorWatch& watch,
-                 const Hooks& hooks)
+  BranchFollower(const Analysis& analysis, const Structure& structure, PathFollower& follower,
+                 Recorder& recorder, CriticalLoads& loads, MonitorWatch& watch, const Hooks& hooks)
       : analysis_(analysis),
-        rules_(rules_of(model, analysis, structure)),
+        rules_(rules_of(analysis, structure)),
         follower_(follower),
         recorder_(recorder),
         loads_(loads),
@@ -339,7 +339,7 @@ namespace {
 
 /// Function that adds requested sensitivities and Koiter coefficients to a critical point, and shows it to
 /// the visitor; may be empty.
-Complete completer(const ResolvedModel& model, const Analysis& analysis, const Hooks& hooks,
+Complete completer(const Analysis& analysis, const Hooks& hooks,
                    const CriticalVisitor& visit, Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter && !visit) return {};
   return [&](const Structure& structure, const PathNorm& norm, const CriticalEvent& event,
@@ -352,21 +352,19 @@ Complete completer(const ResolvedModel& model, const Analysis& analysis, const H
     };
     if (!analysis.sensitivities.empty())
       point.sensitivities =
-          load_sensitivities(model, analysis.sensitivities, structure, at, offsets, factorisations);
+          load_sensitivities(analysis.sensitivities, structure, at, offsets, factorisations);
     if (analysis.koiter)
-      point.koiter =
-          koiter_coefficients(model, structure, at, analysis.output.points_per_member, factorisations);
+      point.koiter = koiter_coefficients(structure, at, analysis.output.points_per_member, factorisations);
     if (visit) visit(structure, at, point, factorisations);
   };
 }
 
 /// Rules of a primary path.
 /// @param problem, watch, loads, recorder kept by reference; must outlive the rules
-TraceRules primary_rules(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                         const CapacityEnds* capacity, StructuralProblem& problem, CriticalLoads& loads,
-                         Recorder& recorder) {
-  TraceRules rules = rules_of(model, analysis, structure);
-  rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.output.at_load_factors);
+TraceRules primary_rules(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+                         StructuralProblem& problem, CriticalLoads& loads, Recorder& recorder) {
+  TraceRules rules = rules_of(analysis, structure);
+  rules.capacity = capacity_rule(capacity, structure, problem, analysis.output.at_load_factors);
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   recorder.ask(rules);
   return rules;
@@ -375,25 +373,23 @@ TraceRules primary_rules(const ResolvedModel& model, const Analysis& analysis, c
 /// Reports the capacity of supports that ended a path.
 /// @param count critical points of the primary path in the result
 /// @return whether everything that the path met is confirmed; the limit needs no finer mesh
-bool confirm_capacity(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                      const CapacityEnds& capacity, const TraceOutcome& outcome, std::size_t count,
-                      bool confirmed, Result& result) {
-  report_capacity_point(analysis, capacity, structure, model, outcome, count, result);
+bool confirm_capacity(const Analysis& analysis, const Structure& structure, const CapacityEnds& capacity,
+                      const TraceOutcome& outcome, std::size_t count, bool confirmed, Result& result) {
+  report_capacity_point(analysis, capacity, structure, outcome, count, result);
   if (!outcome.on_critical) return confirmed;
   return std::ranges::all_of(result.critical_points, &CriticalPoint::confirmed);
 }
 
 /// Sets the rule that follows the natural motions, and what is known of them at the start.
 /// @param flutter has to live as long as the rules
-void add_vibration_rule(const ResolvedModel& model, const Structure& structure, PointSolver& solver,
-                        const PathStart& start, std::optional<FlutterSearch>& flutter, TraceRules& rules) {
-  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
+void add_vibration_rule(const Structure& structure, PointSolver& solver, const PathStart& start,
+                        std::optional<FlutterSearch>& flutter, TraceRules& rules) {
+  rules.vibrations = vibration_rule(structure, solver, rules.locate.tolerance, flutter);
   rules.grows_at_start = start.grows_from.has_value();
 }
 
-void warn_of_vibrations(const ResolvedModel& model, const Structure& structure, const PathStart& start,
-                        Result& result) {
-  warn_of_untested_flutter(model, structure, result);
+void warn_of_vibrations(const Structure& structure, const PathStart& start, Result& result) {
+  warn_of_untested_flutter(structure, result);
   warn_of_growth_at_start(start, result);
 }
 
@@ -401,31 +397,31 @@ void warn_of_vibrations(const ResolvedModel& model, const Structure& structure, 
 /// @param earlier critical points of the path on a coarser mesh
 /// @param decays bending decay lengths at the path's end, for the next mesh
 /// @return whether finer meshes confirm the result, or nothing needs confirmation
-bool follow_on(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-               const CapacityEnds* capacity, const std::vector<CriticalPoint>& earlier, const Hooks& hooks,
-               const CriticalVisitor& visit, Result& result, std::vector<double>& decays) {
+bool follow_on(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, const CriticalVisitor& visit,
+               Result& result, std::vector<double>& decays) {
   StructuralProblem problem(structure);
   PathFollower follower(problem, options_of(analysis));
   PointSolver& solver = follower.solver();
   SoftestPoint softest(solver);
   const auto start =
       analysis.start
-          ? start_at_state(model, structure, solver, analysis, result)
-          : start_of_path(model, structure, problem, solver, path_direction(analysis), hooks, result,
+          ? start_at_state(structure, solver, analysis, result)
+          : start_of_path(structure, problem, solver, path_direction(analysis), hooks, result,
                           [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
-  if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
+  if (const auto touching = with_least_piece(structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
-    return follow_on(model, analysis, *touching, capacity, earlier, hooks, visit, result, decays);
+    return follow_on(analysis, *touching, capacity, earlier, hooks, visit, result, decays);
   }
   if (!start) return true;
-  Recorder recorder(model, analysis, structure, solver, softest, hooks, result);
-  CriticalLoads loads(model, analysis, structure, follower, earlier, result);
+  Recorder recorder(analysis, structure, solver, softest, hooks, result);
+  CriticalLoads loads(analysis, structure, follower, earlier, result);
   MonitorWatch watch(structure, row_of_stop(structure, analysis), start.point->y);
   recorder.begin_branch();
-  TraceRules rules = primary_rules(model, analysis, structure, capacity, problem, loads, recorder);
+  TraceRules rules = primary_rules(analysis, structure, capacity, problem, loads, recorder);
   bound_negative(analysis, start.point->negative, watch, rules);
   std::optional<FlutterSearch> flutter;
-  add_vibration_rule(model, structure, solver, start, flutter, rules);
+  add_vibration_rule(structure, solver, start, flutter, rules);
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
   const TraceOutcome outcome =
@@ -434,7 +430,7 @@ bool follow_on(const ResolvedModel& model, const Analysis& analysis, const Struc
   const std::size_t primary = result.critical_points.size();
   std::string branches;
   if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
-    BranchFollower followed(model, analysis, structure, follower, recorder, loads, watch, hooks);
+    BranchFollower followed(analysis, structure, follower, recorder, loads, watch, hooks);
     followed.add(outcome, 0);
     static_cast<void>(unless_cancelled([&] { branches = followed.run(); }));
   }
@@ -446,27 +442,27 @@ bool follow_on(const ResolvedModel& model, const Analysis& analysis, const Struc
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }
-  const Complete complete = completer(model, analysis, hooks, visit, result);
+  const Complete complete = completer(analysis, hooks, visit, result);
   confirmed = loads.confirm(hooks.stop, meshes, complete) && confirmed;
   const double at = outcome.on_critical ? result.critical_points[primary - 1].load_factor
                                         : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);
   if (outcome.end == TraceEnd::capacity)
-    confirmed = confirm_capacity(model, analysis, structure, *capacity, outcome, primary, confirmed, result);
+    confirmed = confirm_capacity(analysis, structure, *capacity, outcome, primary, confirmed, result);
   result.summary.message = loss_on_the_way(analysis, result) + result.summary.message + branches + meshes;
   warn_of_still_monitor(analysis, watch, result);
-  warn_of_vibrations(model, structure, start, result);
+  warn_of_vibrations(structure, start, result);
   recorder.finish(confirmed || result.failure);
-  softest.report(structure, model, analysis, result);
-  decays = bending_decays(structure, model, outcome.last.y);
+  softest.report(structure, analysis, result);
+  decays = bending_decays(structure, outcome.last.y);
   return confirmed || result.failure;
 }
 
 /// Mesh after an unconfirmed path: every element divided into four, or the mesh that resolves every
 /// foundation if that has fewer elements; refined at boundary layers of the path's end state. Empty when no
 /// still finer mesh could confirm it.
-std::optional<Mesh> much_finer(const Structure& structure, const ResolvedModel& model,
-                               const std::vector<double>& decays) {
+std::optional<Mesh> much_finer(const Structure& structure, const std::vector<double>& decays) {
+  const ResolvedModel& model = *structure.model;
   const auto halved = finer_mesh(structure.mesh);
   const auto quartered = halved ? finer_mesh(*halved) : std::nullopt;
   if (!quartered) return std::nullopt;
@@ -515,9 +511,8 @@ bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) 
          (analysis.start || point.load_factor * path_direction(analysis) > 0.0);
 }
 
-void run_path(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-              const CapacityEnds* capacity, const Hooks& hooks, Result& result,
-              const CriticalVisitor& visit) {
+void run_path(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+              const Hooks& hooks, Result& result, const CriticalVisitor& visit) {
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
@@ -525,20 +520,19 @@ void run_path(const ResolvedModel& model, const Analysis& analysis, const Struct
     Result reached;
     reached.diagnostics = result.diagnostics;
     std::vector<double> decays;
-    const bool confirmed =
-        follow_on(model, analysis, *mesh, capacity, earlier, hooks, visit, reached, decays);
+    const bool confirmed = follow_on(analysis, *mesh, capacity, earlier, hooks, visit, reached, decays);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     report_path_mesh(*mesh, paths, result);
     result.diagnostics.skipped = mesh->skipped;
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     if (paths == PathLimits::meshes) break;
-    auto next = much_finer(*mesh, model, decays);
+    auto next = much_finer(*mesh, decays);
     if (!next) break;
     if (static_cast<double>(factorizations) * static_cast<double>(next->elements.size()) > PathLimits::work)
       break;
     earlier = result.critical_points;
-    finer = on_mesh(structure, model, *std::move(next));
+    finer = on_mesh(structure, *std::move(next));
     mesh = &*finer;
   }
   fail_unconfirmed(analysis, result);

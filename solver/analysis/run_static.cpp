@@ -45,17 +45,17 @@ class StaticRows {
  public:
   /// @param asked whether a row is requested, one entry per load factor
   /// @param visit may be empty
-  StaticRows(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-             const std::vector<char>& asked, const StateVisitor& visit)
-      : model_(model),
+  StaticRows(const Analysis& analysis, const Structure& structure, const std::vector<char>& asked,
+             const StateVisitor& visit)
+      : model_(*structure.model),
         analysis_(analysis),
         structure_(structure),
         asked_(asked),
         visit_(visit),
-        observer_(model, analysis, structure),
+        observer_(analysis, structure),
         state_loads_(analysis.output.at_load_factors.begin(), analysis.output.at_load_factors.end()),
         rows_(analysis.load_factors.size()) {
-    if (analysis.output.frequencies > 0) probe_.emplace(structure, model, analysis);
+    if (analysis.output.frequencies > 0) probe_.emplace(structure, analysis);
   }
 
   /// Adds a row, unless its state is no equilibrium: then its text tells by how much.
@@ -116,12 +116,12 @@ bool StaticRows::wants_state(std::size_t index) const {
 
 void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds) {
   const double lambda = analysis_.load_factors[index] * structure_.scales.load;
-  if (const double left = imbalance(structure_, model_, y, lambda); !(left <= StateLimits::imbalance)) {
+  if (const double left = imbalance(structure_, y, lambda); !(left <= StateLimits::imbalance)) {
     refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(analysis_.load_factors[index], left);
     return;
   }
   Row row{VectorXd(static_cast<Eigen::Index>(structure_.monitors.size())),
-          contact_fractions(structure_, model_, y),
+          contact_fractions(structure_, y),
           {index, y, lambda, negative, holds},
           std::nullopt,
           std::nullopt};
@@ -132,7 +132,7 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const S
   if (visit_) visit_(index, y, lambda);
   observer_.note_strain(y, lambda, 0);
   if (wants_state(index)) {
-    row.state = make_state(structure_, model_, y, lambda, analysis_.output.points_per_member);
+    row.state = make_state(structure_, y, lambda, analysis_.output.points_per_member);
     row.state->load_factor = analysis_.load_factors[index];
   } else {
     observer_.add_to_extremes(y, lambda, 0);
@@ -207,22 +207,23 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
 }
 
 /// @brief Makes the result's entry for a critical point of a static path, without mesh confirmation.
-CriticalPoint unconfirmed_point(const Structure& structure, const ResolvedModel& model,
-                                const CriticalEvent& event, const VectorXd& motion) {
+CriticalPoint unconfirmed_point(const Structure& structure, const CriticalEvent& event,
+                                const VectorXd& motion) {
+  const ResolvedModel& model = *structure.model;
   CriticalPoint point = critical_point(structure, event);
   if (point.multiplicity == 1)
-    if (const auto member = member_that_buckles(structure, model, motion))
-      point.member = model.members[*member].id;
+    if (const auto member = member_that_buckles(structure, motion)) point.member = model.members[*member].id;
   return point;
 }
 
 /// Reports the critical point that ends a static path, as failure with its mode.
-void fail_at(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-             StructuralProblem& problem, const CriticalEvent& event, Result& result) {
+void fail_at(const Analysis& analysis, const Structure& structure, StructuralProblem& problem,
+             const CriticalEvent& event, Result& result) {
+  const ResolvedModel& model = *structure.model;
   const VectorXd motion = mode_of(problem, event);
-  Mode mode = mode_displacements(structure, model, motion, analysis.output.points_per_member);
+  Mode mode = mode_displacements(structure, motion, analysis.output.points_per_member);
   scale_to_largest(mode);
-  const CriticalPoint point = unconfirmed_point(structure, model, event, motion);
+  const CriticalPoint point = unconfirmed_point(structure, event, motion);
   result.critical_points.push_back(point);
   const bool is_turn = is_limit(event.type);
   const bool flutters = event.type == CriticalType::flutter;
@@ -255,9 +256,9 @@ TraceRules static_rules(const ResolvedModel& model, const Analysis& analysis, co
 }
 
 /// Sets the failure of a static path that ended before its last load factor.
-void fail_at_end(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                 const CapacityEnds* capacity, StructuralProblem& problem, const TraceOutcome& outcome,
-                 Result& result) {
+void fail_at_end(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+                 StructuralProblem& problem, const TraceOutcome& outcome, Result& result) {
+  const ResolvedModel& model = *structure.model;
   const std::string where = number(outcome.last.lambda / structure.scales.load);
   switch (outcome.end) {
     case TraceEnd::cancelled:
@@ -265,7 +266,7 @@ void fail_at_end(const ResolvedModel& model, const Analysis& analysis, const Str
       return;
     case TraceEnd::critical_point:
     case TraceEnd::limit_points:
-      fail_at(model, analysis, structure, problem, outcome.critical.back(), result);
+      fail_at(analysis, structure, problem, outcome.critical.back(), result);
       return;
     case TraceEnd::capacity:
       fail(result, "capacity",
@@ -282,14 +283,14 @@ void fail_at_end(const ResolvedModel& model, const Analysis& analysis, const Str
 /// Keeps the states at the asked load factors that a path passes.
 class StaticObserver final : public PathObserver {
  public:
-  StaticObserver(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                 SoftestPoint& softest, StaticRows& states, Result& result)
+  StaticObserver(const Analysis& analysis, const Structure& structure, SoftestPoint& softest,
+                 StaticRows& states, Result& result)
       : analysis_(analysis),
         structure_(structure),
         softest_(softest),
         states_(states),
         result_(result),
-        neutral_(structure, model, result.neutral_motion) {}
+        neutral_(structure, result.neutral_motion) {}
 
   void on_point(const PathPoint& point) override {
     softest_.set_unloaded(point);
@@ -319,9 +320,9 @@ class StaticObserver final : public PathObserver {
 };
 
 /// Follows the path through all load factors of one sign, stores their states; false when it ends earlier.
-bool follow(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-            const CapacityEnds* capacity, double direction, const Hooks& hooks, StaticRows& states,
-            Result& result) {
+bool follow(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+            double direction, const Hooks& hooks, StaticRows& states, Result& result) {
+  const ResolvedModel& model = *structure.model;
   double last = 0.0;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (states.lacks(i)) last = std::max(last, analysis.load_factors[i] * direction);
@@ -330,11 +331,11 @@ bool follow(const ResolvedModel& model, const Analysis& analysis, const Structur
   PointSolver& solver = follower.solver();
   SoftestPoint softest(solver);
   const PathStart start =
-      start_of_path(model, structure, problem, solver, direction, hooks, result,
+      start_of_path(structure, problem, solver, direction, hooks, result,
                     [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
-  if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
+  if (const auto touching = with_least_piece(structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
-    return follow(model, analysis, *touching, capacity, direction, hooks, states, result);
+    return follow(analysis, *touching, capacity, direction, hooks, states, result);
   }
   if (!start) return false;
   if (start.grows_from && analysis.unstable == Unstable::refuse) {
@@ -349,24 +350,24 @@ bool follow(const ResolvedModel& model, const Analysis& analysis, const Structur
       states.set(i, start.point->y, start.point->negative, start.point->holds);
   if (last == 0.0) return true;
   TraceRules rules = static_rules(model, analysis, states, last, structure.scales.load);
-  rules.capacity = capacity_rule(capacity, structure, model, problem, analysis.load_factors);
+  rules.capacity = capacity_rule(capacity, structure, problem, analysis.load_factors);
   std::optional<FlutterSearch> flutter;
-  rules.vibrations = vibration_rule(model, structure, solver, rules.locate.tolerance, flutter);
-  StaticObserver observer(model, analysis, structure, softest, states, result);
+  rules.vibrations = vibration_rule(structure, solver, rules.locate.tolerance, flutter);
+  StaticObserver observer(analysis, structure, softest, states, result);
   const TraceOutcome outcome = trace(follower, start.point, rules, analysis.step, {&observer}, hooks.stop);
   add_statistics(follower.statistics(), result);
-  softest.report(structure, model, analysis, result);
+  softest.report(structure, analysis, result);
   if (outcome.end == TraceEnd::load_factor) return true;
-  fail_at_end(model, analysis, structure, capacity, problem, outcome, result);
+  fail_at_end(analysis, structure, capacity, problem, outcome, result);
   return false;
 }
 
 /// Computes the states at all requested load factors.
-void compute(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-             const CapacityEnds* capacity, const Hooks& hooks, StaticRows& states, Result& result) {
+void compute(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+             const Hooks& hooks, StaticRows& states, Result& result) {
   if (analysis.geometry == Geometry::linear) {
     StructuralProblem problem(structure);
-    NeutralMotionLog neutral(structure, model, result.neutral_motion);
+    NeutralMotionLog neutral(structure, result.neutral_motion);
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
       if (!states.lacks(i)) continue;
       SharedHolds holds;
@@ -381,15 +382,14 @@ void compute(const ResolvedModel& model, const Analysis& analysis, const Structu
   } else {
     const bool falling = states.asks_for([](double factor) { return factor < 0.0; });
     const bool growing = states.asks_for([](double factor) { return factor >= 0.0; });
-    if (growing) static_cast<void>(follow(model, analysis, structure, capacity, 1.0, hooks, states, result));
-    if (falling) static_cast<void>(follow(model, analysis, structure, capacity, -1.0, hooks, states, result));
+    if (growing) static_cast<void>(follow(analysis, structure, capacity, 1.0, hooks, states, result));
+    if (falling) static_cast<void>(follow(analysis, structure, capacity, -1.0, hooks, states, result));
   }
 }
 
 /// The states of a static analysis on a mesh that meets its accuracy.
-RefinedStates refined(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                      const CapacityEnds* capacity, const Hooks& hooks,
-                      const std::vector<StaticState>& states, Result& result) {
+RefinedStates refined(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
+                      const Hooks& hooks, const std::vector<StaticState>& states, Result& result) {
   Analysis bare = analysis;
   bare.output.states = StateOutput::none;
   bare.output.frequencies = 0;
@@ -398,14 +398,14 @@ RefinedStates refined(const ResolvedModel& model, const Analysis& analysis, cons
   const auto find = [&](const Structure& finer, const std::vector<StaticState>& wanted) {
     std::vector<char> asked(analysis.load_factors.size(), 0);
     for (const StaticState& state : wanted) asked[state.row] = 1;
-    StaticRows rows(model, bare, finer, asked, {});
+    StaticRows rows(bare, finer, asked, {});
     Result found;
     found.diagnostics.factorizations = 0;
-    compute(model, bare, finer, capacity, quiet, rows, found);
+    compute(bare, finer, capacity, quiet, rows, found);
     result.diagnostics.factorizations += found.diagnostics.factorizations;
     return rows.equilibria();
   };
-  return refine_states(model, analysis.discretization, structure, states, find);
+  return refine_states(analysis.discretization, structure, states, find);
 }
 
 /// Reports the stability of the rows, in the message or in a warning.
@@ -440,12 +440,12 @@ void report_stability(const Analysis& analysis, Result& result) {
 
 }  // namespace
 
-void run_static(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                const HeldRows& held, const Hooks& hooks, Result& result, const StateVisitor& visit) {
-  StaticRows states(model, analysis, structure, held.factors, visit);
+void run_static(const Analysis& analysis, const Structure& structure, const HeldRows& held,
+                const Hooks& hooks, Result& result, const StateVisitor& visit) {
+  StaticRows states(analysis, structure, held.factors, visit);
   result.summary.termination = "load_factors";
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
-  if (!unless_cancelled([&] { compute(model, analysis, structure, held.capacity, hooks, states, result); }))
+  if (!unless_cancelled([&] { compute(analysis, structure, held.capacity, hooks, states, result); }))
     fail(result, "cancelled", "cancelled before all load factors were reached");
   if (!result.failure && !states.refused().empty()) fail(result, "no_convergence", states.refused());
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
@@ -456,17 +456,17 @@ void run_static(const ResolvedModel& model, const Analysis& analysis, const Stru
   std::optional<RefinedStates> finer;
   std::optional<StaticRows> of_finer;
   if (!visit && !found.empty() && !analysis.discretization.fixed_mesh)
-    static_cast<void>(unless_cancelled(
-        [&] { finer = refined(model, analysis, structure, held.capacity, hooks, found, result); }));
+    static_cast<void>(
+        unless_cancelled([&] { finer = refined(analysis, structure, held.capacity, hooks, found, result); }));
   if (finer && finer->structure.get() != &structure) {
-    of_finer.emplace(model, analysis, *finer->structure, held.factors, visit);
+    of_finer.emplace(analysis, *finer->structure, held.factors, visit);
     for (const StaticState& state : finer->states)
       of_finer->set(state.row, state.y, state.negative, state.holds);
     if (!result.failure && !of_finer->refused().empty()) fail(result, "no_convergence", of_finer->refused());
   }
   if (finer) report_accuracy(*finer, analysis.discretization, result);
   (of_finer ? *of_finer : states).move_to(result);
-  warn_of_untested_flutter(model, structure, result);
+  warn_of_untested_flutter(structure, result);
   report_stability(analysis, result);
 }
 

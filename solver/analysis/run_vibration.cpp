@@ -35,20 +35,20 @@ struct Level {
   Result result;       ///< the states, as a static analysis gives them
 };
 
-Level solve_on(const ResolvedModel& model, const Analysis& analysis,
+Level solve_on(const Analysis& analysis,
                std::shared_ptr<const Structure> structure, const HeldRows& held, const Hooks& hooks) {
   Level out;
   out.structure = std::move(structure);
   out.rows.resize(analysis.load_factors.size());
   out.result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
-  FrequencyProbe probe(*out.structure, model, analysis);
+  FrequencyProbe probe(*out.structure, analysis);
   out.unit = probe.unit();
   out.scale = probe.scale();
   Analysis states = analysis;
   states.type = AnalysisType::static_;
   states.unstable = Unstable::follow;
   states.output.frequencies = 0;
-  run_static(model, states, *out.structure, held, hooks, out.result,
+  run_static(states, *out.structure, held, hooks, out.result,
              [&](std::size_t row, const Eigen::VectorXd& y, double lambda) {
                out.rows[row] = probe.at(y, lambda);
                if (out.rows[row]) out.result.diagnostics.factorizations += out.rows[row]->factorizations;
@@ -89,7 +89,7 @@ bool compare(const Level& coarse, const Level& fine, double accuracy,
   return within;
 }
 
-Vibration vibration_at(const ResolvedModel& model, const Analysis& analysis, const Level& level,
+Vibration vibration_at(const Analysis& analysis, const Level& level,
                        std::size_t row, const std::vector<RankError>& errors) {
   const NaturalMotions& motions = *level.rows[row];
   Vibration out;
@@ -98,7 +98,7 @@ Vibration vibration_at(const ResolvedModel& model, const Analysis& analysis, con
   for (std::size_t i = 0; i < motions.squares.size(); ++i) {
     out.error_estimates.push_back(
         i < errors.size() && errors[i].error ? std::optional(*errors[i].error * level.unit) : std::nullopt);
-    out.modes.push_back(mode_displacements(*level.structure, model,
+    out.modes.push_back(mode_displacements(*level.structure,
                                            motions.motions.col(static_cast<Eigen::Index>(i)),
                                            analysis.output.points_per_member));
     // the second part of a conjugate pair completes its motion
@@ -137,22 +137,22 @@ void report_missing(const Analysis& analysis, const Level& level, Result& result
   }
 }
 
-void report_rows(const ResolvedModel& model, const Analysis& analysis, const Level& level,
+void report_rows(const Analysis& analysis, const Level& level,
                  const std::vector<std::vector<RankError>>& errors, Result& result) {
   auto& out = result.vibrations.emplace();
   for (std::size_t row = 0; row < level.rows.size(); ++row)
     if (level.rows[row] && !level.rows[row]->squares.empty())
-      out.push_back(vibration_at(model, analysis, level, row, errors[row]));
+      out.push_back(vibration_at(analysis, level, row, errors[row]));
   report_missing(analysis, level, result);
 }
 
 }  // namespace
 
-void run_vibration(const ResolvedModel& model, const Analysis& analysis, const Structure& structure,
-                   const HeldRows& held, const Hooks& hooks, Result& result) {
+void run_vibration(const Analysis& analysis, const Structure& structure, const HeldRows& held,
+                   const Hooks& hooks, Result& result) {
   const double accuracy = analysis.discretization.accuracy;
   std::vector<std::vector<RankError>> errors(analysis.load_factors.size());
-  Level now = solve_on(model, analysis, {std::shared_ptr<const Structure>(), &structure}, held, hooks);
+  Level now = solve_on(analysis, {std::shared_ptr<const Structure>(), &structure}, held, hooks);
   int factorizations = now.result.diagnostics.factorizations;
   bool within = false;
   int level = 0;
@@ -161,8 +161,8 @@ void run_vibration(const ResolvedModel& model, const Analysis& analysis, const S
     auto mesh = finer_mesh(now.structure->mesh);
     if (!mesh) break;
     Level next =
-        solve_on(model, analysis,
-                 std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))), held, hooks);
+        solve_on(analysis, std::make_shared<const Structure>(on_mesh(structure, *std::move(mesh))),
+                 held, hooks);
     factorizations += next.result.diagnostics.factorizations;
     if (next.result.failure) break;
     within = compare(now, next, accuracy, errors);
@@ -174,7 +174,7 @@ void run_vibration(const ResolvedModel& model, const Analysis& analysis, const S
   result.diagnostics.skipped = skipped;
   result.diagnostics.factorizations = factorizations;
   report_mesh(*now.structure, level, result);
-  report_rows(model, analysis, now, errors, result);
+  report_rows(analysis, now, errors, result);
   result.summary.message = "small free vibrations about the equilibrium at " +
                            std::to_string(result.vibrations->size()) + " of " +
                            std::to_string(analysis.load_factors.size()) + " load factors";

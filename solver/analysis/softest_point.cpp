@@ -169,8 +169,8 @@ void SoftestPoint::search(PathPoint low, PathPoint high) {
   if (!lowest_ || stiffness_of(best)->value < stiffness_of(*lowest_)->value) lowest_ = std::move(best);
 }
 
-void SoftestPoint::report(const Structure& structure, const ResolvedModel& model, const Analysis& analysis,
-                          Result& result) const {
+void SoftestPoint::report(const Structure& structure, const Analysis& analysis, Result& result) const {
+  const ResolvedModel& model = *structure.model;
   const bool with_mode = analysis.output.modes && analysis.output.states != StateOutput::none;
   Summary& summary = result.summary;
   const auto least = lowest_ ? ratio(*lowest_) : std::nullopt;
@@ -184,7 +184,7 @@ void SoftestPoint::report(const Structure& structure, const ResolvedModel& model
     summary.softest = std::move(softest);
     return;
   }
-  Mode mode = mode_displacements(structure, model, lowest_->modes->motions.col(*least_mode(*lowest_)),
+  Mode mode = mode_displacements(structure, lowest_->modes->motions.col(*least_mode(*lowest_)),
                                  analysis.output.points_per_member);
   scale_to_largest(mode);
   Softest softest{lowest_->lambda / structure.scales.load, *least, {}};
@@ -197,7 +197,7 @@ void SoftestPoint::report(const Structure& structure, const ResolvedModel& model
   summary.softest = std::move(softest);
 }
 
-AtCritical at_critical(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y) {
+AtCritical at_critical(const Structure& structure, const Eigen::VectorXd& y) {
   AtCritical out;
   std::array<double, 2> least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   std::array<double, 2> most{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
@@ -216,7 +216,7 @@ AtCritical at_critical(const Structure& structure, const ResolvedModel& model, c
   }
   out.relative_displacement = out.displacement / std::hypot(most[0] - least[0], most[1] - least[1]);
   LargestStrain strain;
-  static_cast<void>(StrainGauge(structure, model).raise(y, strain));
+  static_cast<void>(StrainGauge(structure).raise(y, strain));
   out.strain = strain.strain;
   return out;
 }

@@ -42,8 +42,7 @@ class SoftestPoint {
   ///
   /// Without a minimum before the critical point, that point is the softest.
   /// @pre result.summary has its final critical load and message
-  void report(const Structure& structure, const ResolvedModel& model, const Analysis& analysis,
-              Result& result) const;
+  void report(const Structure& structure, const Analysis& analysis, Result& result) const;
 
  private:
   /// Finds a local minimum of the stiffness between two path points.
@@ -63,7 +62,6 @@ class SoftestPoint {
 
 /// @brief Largest displacement, rotation and strain of a state, for Summary::at_critical.
 /// @param y scaled unknowns
-[[nodiscard]] AtCritical at_critical(const Structure& structure, const ResolvedModel& model,
-                                     const Eigen::VectorXd& y);
+[[nodiscard]] AtCritical at_critical(const Structure& structure, const Eigen::VectorXd& y);
 
 }  // namespace snapthrough

@@ -26,7 +26,8 @@ struct StartLimits {
 };
 
 /// Explains why no equilibrium was found under the first small load.
-std::string nothing_found(const ResolvedModel& model, const Structure& structure, const PathStart& start) {
+std::string nothing_found(const Structure& structure, const PathStart& start) {
+  const ResolvedModel& model = *structure.model;
   const Eigen::VectorXd& motion = start.free_motion;
   if (const auto& far = start.far_state) {
     return "the first state that was found lies farther from the unloaded structure than its gaps and "
@@ -49,10 +50,9 @@ std::string nothing_found(const ResolvedModel& model, const Structure& structure
          model.nodes[node].id + "\")";
 }
 
-void fail_to_start(const ResolvedModel& model, const Structure& structure, const PathStart& start,
-                   Result& result) {
+void fail_to_start(const Structure& structure, const PathStart& start, Result& result) {
   const bool loose = start.free_motion.size() > 0;
-  fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, start));
+  fail(result, loose ? "loose_part" : "no_start", nothing_found(structure, start));
 }
 
 /// Hands on the first point of a path.
@@ -96,12 +96,13 @@ PathPoint fully_loaded(const Structure& structure, StructuralProblem& problem, P
 /// Hands what is known of stability on the constant actions' path to the start of the next path: the number
 /// of real eigenvalues below zero, of which a tangent that is not symmetric tells the parity alone, and
 /// flutter.
-void hand_on_stability(const ResolvedModel& model, const Structure& structure, StructuralProblem& problem,
-                       const TraceOutcome& outcome, PathStart& start) {
+void hand_on_stability(const Structure& structure, StructuralProblem& problem, const TraceOutcome& outcome,
+                       PathStart& start) {
+  const ResolvedModel& model = *structure.model;
   PathPoint& point = *start.point;
   point.negative = count_next_to(outcome.last.negative, {point.negative, 0.0, true});
   const bool is_linear = !structure.one_sided || !has_any(problem.marks_at(point.y));
-  if (!has_mass(model) || !is_linear || !FlutterSearch(structure, model).flutters_at(point)) return;
+  if (!has_mass(model) || !is_linear || !FlutterSearch(structure).flutters_at(point)) return;
   start.grows_from = 1.0;
   for (const CriticalEvent& event : outcome.critical)
     if (event.type == CriticalType::flutter) start.grows_from = event.point.lambda;
@@ -109,12 +110,12 @@ void hand_on_stability(const ResolvedModel& model, const Structure& structure, S
 
 }  // namespace
 
-PathStart start_at_state(const ResolvedModel& model, const Structure& structure, PointSolver& solver,
-                         const Analysis& analysis, Result& result) {
+PathStart start_at_state(const Structure& structure, PointSolver& solver, const Analysis& analysis,
+                         Result& result) {
   const StartState& state = *analysis.start;
   Eigen::VectorXd given;
   try {
-    given = unknowns_of(structure, model, state);
+    given = unknowns_of(structure, state);
   } catch (const std::invalid_argument& error) {
     fail(result, "no_start", std::string("the given state can't be joined by splines: ") + error.what());
     return {};
@@ -142,12 +143,12 @@ PathStart start_at_state(const ResolvedModel& model, const Structure& structure,
   return {};
 }
 
-PathStart start_of_path(const ResolvedModel& model, const Structure& structure, StructuralProblem& problem,
-                        PointSolver& solver, double direction, const Hooks& hooks, Result& result,
+PathStart start_of_path(const Structure& structure, StructuralProblem& problem, PointSolver& solver,
+                        double direction, const Hooks& hooks, Result& result,
                         const std::function<void(const PathPoint&)>& on_unloaded) {
   if (!structure.has_constant) {
     PathStart start = find_start(solver, direction);
-    if (!start) fail_to_start(model, structure, start, result);
+    if (!start) fail_to_start(structure, start, result);
     return start;
   }
   problem.set_stage(StructuralProblem::Stage::constant);
@@ -158,7 +159,7 @@ PathStart start_of_path(const ResolvedModel& model, const Structure& structure, 
   UnloadedPoint unloaded(on_unloaded);
   const PathStart first = find_start(loading.solver(), 1.0, StartLimits::first_load);
   std::optional<FlutterSearch> flutter;
-  rules.vibrations = vibration_rule(model, structure, loading.solver(), rules.locate.tolerance, flutter,
+  rules.vibrations = vibration_rule(structure, loading.solver(), rules.locate.tolerance, flutter,
                                     StructuralProblem::Stage::constant);
   const TraceOutcome outcome = trace(loading, first.point, rules, {}, {&unloaded}, hooks.stop);
   problem.set_stage(StructuralProblem::Stage::proportional);
@@ -178,7 +179,7 @@ PathStart start_of_path(const ResolvedModel& model, const Structure& structure, 
   }
   if (outcome.end == TraceEnd::no_start) {
     fail(result, "constant_actions",
-         "the constant actions can't be put on: " + nothing_found(model, structure, first));
+         "the constant actions can't be put on: " + nothing_found(structure, first));
     return {};
   }
   if (outcome.end != TraceEnd::load_factor) {
@@ -189,8 +190,8 @@ PathStart start_of_path(const ResolvedModel& model, const Structure& structure, 
   }
   PathStart start = start_at_equilibrium(solver, fully_loaded(structure, problem, solver, outcome.last).y,
                                          direction, outcome.last.holds);
-  if (!start) fail_to_start(model, structure, start, result);
-  if (start && structure.unsymmetric()) hand_on_stability(model, structure, problem, outcome, start);
+  if (!start) fail_to_start(structure, start, result);
+  if (start && structure.unsymmetric()) hand_on_stability(structure, problem, outcome, start);
   return start;
 }
 

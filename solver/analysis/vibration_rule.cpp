@@ -7,10 +7,11 @@
 namespace snapthrough {
 
 std::function<StepVibrations(const PathPoint&, const PathPoint&)> vibration_rule(
-    const ResolvedModel& model, const Structure& structure, PointSolver& solver, double tolerance,
-    std::optional<FlutterSearch>& flutter, StructuralProblem::Stage stage) {
+    const Structure& structure, PointSolver& solver, double tolerance, std::optional<FlutterSearch>& flutter,
+    StructuralProblem::Stage stage) {
+  const ResolvedModel& model = *structure.model;
   if (!structure.unsymmetric()) return {};
-  if (has_mass(model)) flutter.emplace(structure, model, stage);
+  if (has_mass(model)) flutter.emplace(structure, stage);
   return [&, tolerance](const PathPoint& from, const PathPoint& to) {
     return flutter ? flutter->on_step(solver, from, to, tolerance) : divergence_on_step(solver, from, to);
   };
@@ -22,10 +23,11 @@ void warn_of_growth_at_start(const PathStart& start, Result& result) {
                                              rounded(*start.grows_from) + " of the constant actions on"});
 }
 
-void warn_of_untested_flutter(const ResolvedModel& model, const Structure& structure, Result& result) {
+void warn_of_untested_flutter(const Structure& structure, Result& result) {
+  const ResolvedModel& model = *structure.model;
   if (!structure.unsymmetric()) return;
   if (has_mass(model)) {
-    const MassMatrix masses = make_mass_matrix(structure, model);
+    const MassMatrix masses = make_mass_matrix(structure);
     if (has_massless_elements(masses) && follows_without_mass(structure, masses))
       result.warnings.push_back({"massless_place",
                                  "a load that has no potential acts where the structure has no mass: with a "

@@ -16,8 +16,7 @@ namespace snapthrough {
 /// @param stage actions that the load factor multiplies
 /// @return empty where every load has a potential
 [[nodiscard]] std::function<StepVibrations(const PathPoint&, const PathPoint&)> vibration_rule(
-    const ResolvedModel& model, const Structure& structure, PointSolver& solver, double tolerance,
-    std::optional<FlutterSearch>& flutter,
+    const Structure& structure, PointSolver& solver, double tolerance, std::optional<FlutterSearch>& flutter,
     StructuralProblem::Stage stage = StructuralProblem::Stage::proportional);
 
 /// @brief Warns of vibrations that grow where the load begins to grow.
@@ -25,6 +24,6 @@ namespace snapthrough {
 void warn_of_growth_at_start(const PathStart& start, Result& result);
 
 /// Warns of loads without a potential whose vibrations could not be tested.
-void warn_of_untested_flutter(const ResolvedModel& model, const Structure& structure, Result& result);
+void warn_of_untested_flutter(const Structure& structure, Result& result);
 
 }  // namespace snapthrough

@@ -102,7 +102,7 @@ Result Search::follow(const VectorXd& offsets, std::optional<OffsetWorks>* works
     const bool loses_stability = point.negative_before == 0 && point.negative_after > 0;
     if (!loses_stability || point.type == CriticalType::broken_bifurcation) return;
     if (!modes_) modes_ = mode_offsets(with, analysis_, stop_);
-    last = offset_works(with, structure, at, space_, *modes_, factorisations);
+    last = offset_works(structure, at, space_, *modes_, factorisations);
     load = point.load_factor;
   };
   Result result = run_(with, visit);

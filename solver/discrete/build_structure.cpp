@@ -32,19 +32,13 @@ double largest_of(double constant, const Along<double>& along) {
   return largest;
 }
 
-/// A structure with the same scales, whose parts are taken over where they do not differ, and its model.
-struct Neighbour {
-  const Structure& structure;
-  const ResolvedModel& model;
-};
-
 /// Builds a Structure stage by stage; one object per structure.
 class Builder {
  public:
-  /// @param laws model with opposite supports joined, for the equations
-  /// @param like null, or a structure with the same mesh and axes
-  Builder(const ResolvedModel& model, const ResolvedModel& laws, const Neighbour* like, Structure& out)
-      : model_(model), laws_(laws), like_(like), out_(out) {}
+  /// @param like null, or a structure with the same mesh, axes and scales, whose parts are taken over where
+  /// they do not differ
+  Builder(const Structure* like, Structure& out)
+      : model_(*out.model), laws_(*out.laws), like_(like), out_(out) {}
   Builder(const Builder&) = delete;
 
   /// @param known scales of another mesh or model; null: from the model
@@ -102,7 +96,7 @@ class Builder {
 
   const ResolvedModel& model_;
   const ResolvedModel& laws_;
-  const Neighbour* like_;
+  const Structure* like_;
   Structure& out_;
   std::vector<Here> here_;                      ///< one per element
   std::vector<FoundationLaw> foundation_laws_;  ///< laws of `laws_`
@@ -121,9 +115,9 @@ void Builder::set_scales(const Scales* known) {
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
-  number_nodes(model_, out_);
-  add_laws(model_, model_, out_, out_.foundation_laws, out_.spring_laws);
-  add_laws(model_, laws_, out_, foundation_laws_, spring_laws_);
+  number_nodes(out_);
+  add_laws(model_.springs, model_.foundations, out_, out_.spring_laws, out_.foundation_laws);
+  add_laws(laws_.springs, laws_.foundations, out_, spring_laws_, foundation_laws_);
   const auto keep = [this](const auto& law) {
     if (law.curve) out_.curves.push_back(law.curve);
   };
@@ -206,8 +200,7 @@ const FoundationContact* contact_in(const std::vector<FoundationPart>& parts, in
 const FoundationContact* Builder::known_contact(int element, const FoundationLaw& law,
                                                 std::array<double, 2> range) const {
   const FoundationContact* known = contact_in(out_.foundation_parts, element, law, range);
-  if (known == nullptr && like_ != nullptr)
-    known = contact_in(like_->structure.foundation_parts, element, law, range);
+  if (known == nullptr && like_ != nullptr) known = contact_in(like_->foundation_parts, element, law, range);
   return known;
 }
 
@@ -330,10 +323,10 @@ const Section& section_of(const ResolvedModel& model, const Mesh& mesh, int elem
 void Builder::add_shape(int element) {
   const ElementDofs& dofs = out_.dofs[element];
   if (like_ != nullptr &&
-      section_of(model_, out_.mesh, element) == section_of(like_->model, out_.mesh, element))
-    elements_->add_like(*like_->structure.elements, element, dofs);
+      section_of(model_, out_.mesh, element) == section_of(*like_->model, out_.mesh, element))
+    elements_->add_like(*like_->elements, element, dofs);
   else
-    elements_->add(shape_of_element(out_, model_, element), dofs);
+    elements_->add(shape_of_element(out_, element), dofs);
 }
 
 void Builder::add_elements() {
@@ -389,7 +382,7 @@ void Builder::add_supports() {
     const ResolvedSpring& spring = laws_.springs[i];
     const bool stops = spring_laws_[i].give > 0.0;
     if ((!stops && spring.at.is_on_member()) || initial_stiffness(spring) == 0.0) continue;
-    const int node = stops ? node_of_stop(out_, model_, spring) : spring.at.node;
+    const int node = stops ? node_of_stop(out_, spring) : spring.at.node;
     int to = spring.to ? spring.to->node : -1;
     if (spring_laws_[i].ground >= 0) to = spring_laws_[i].ground / 3;
     NodeSpring& js = out_.node_springs.emplace_back(node_spring(spring_laws_[i], node, to));
@@ -467,10 +460,10 @@ bool has_same_loads(const ResolvedModel& a, const ResolvedModel& b) {
 void Builder::add_loads(std::optional<double> load_scale) {
   for (const ResolvedLoad& load : model_.loads)
     if (const auto* pressure = std::get_if<ResolvedPressureLoad>(&load)) add_pressure(*pressure);
-  const bool known = like_ != nullptr && has_same_loads(model_, like_->model);
+  const bool known = like_ != nullptr && has_same_loads(model_, *like_->model);
   if (known) {
-    out_.proportional_load = like_->structure.proportional_load;
-    out_.constant_load = like_->structure.constant_load;
+    out_.proportional_load = like_->proportional_load;
+    out_.constant_load = like_->constant_load;
   } else {
     for (const ResolvedLoad& load : model_.loads) add_dead_load(load);
   }
@@ -506,7 +499,7 @@ void Builder::add_initial_strain(const ResolvedInitialStrain& load) {
         out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI.largest());
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const CollocationRule& rule = CollocationRule::of(p);
-    const ElementShape shape = shape_of_element(out_, model_, e);
+    const ElementShape shape = shape_of_element(out_, e);
     for (int q = 0; q < p; ++q) {
       const MeshElement& cell = out_.mesh.elements[e];
       const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
@@ -541,7 +534,7 @@ void Builder::scale_other_actions() {
   for (const ElementPressure& p : pressures_)
     elements_->set_pressure(p.element, p.proportional.times(1.0 / total), p.constant);
   find_follower_ends(total);
-  out_.follower_forces = follower_forces_of(out_, model_);
+  out_.follower_forces = follower_forces_of(out_);
 }
 
 /// Whether constant actions cause displacements, and not only reactions of rigid supports.
@@ -626,18 +619,20 @@ void Builder::set_metric() {
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
 /// @param like see Builder
-void fill(const ResolvedModel& model, const Scales* scales, const Neighbour* like, Structure& out) {
-  const std::optional<ResolvedModel> joined = with_joined_supports(model);
-  const ResolvedModel& laws = joined ? *joined : model;
-  Builder builder(model, laws, like, out);
+void fill(const Scales* scales, const Structure* like, Structure& out) {
+  const ResolvedModel& model = *out.model;
+  std::optional<ResolvedModel> joined = with_joined_supports(model);
+  out.laws = joined ? std::make_shared<const ResolvedModel>(*std::move(joined)) : out.model;
+  const ResolvedModel& laws = *out.laws;
+  Builder builder(like, out);
   builder.set_scales(scales);
-  bound_stiffness(model, out);
+  bound_stiffness(out);
   builder.number_unknowns();
   builder.add_elements();
   builder.add_supports();
   builder.add_loads(scales != nullptr ? std::optional(scales->load) : std::nullopt);
   builder.set_metric();
-  out.monitors = monitor_rows(out, model);
+  out.monitors = monitor_rows(out);
   builder.finish();
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
   out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
@@ -667,7 +662,8 @@ void fill(const ResolvedModel& model, const Scales* scales, const Neighbour* lik
   }
 }
 
-void set_axes(const ResolvedModel& model, const ModeOffsets& modes, Structure& out) {
+void set_axes(const ModeOffsets& modes, Structure& out) {
+  const ResolvedModel& model = *out.model;
   out.axes = make_axes(model);
   out.origin = {model.nodes.front().x, model.nodes.front().y};
   for (std::size_t m = 0; m < model.members.size(); ++m)
@@ -677,29 +673,31 @@ void set_axes(const ResolvedModel& model, const ModeOffsets& modes, Structure& o
 
 }  // namespace
 
-Structure make_structure(const ResolvedModel& model, const Discretization& discretization, Geometry geometry,
+Structure make_structure(ResolvedModel model, const Discretization& discretization, Geometry geometry,
                          const ModeOffsets& modes, MeshUse use) {
   Structure out;
+  out.model = std::make_shared<const ResolvedModel>(std::move(model));
   out.geometry = geometry;
-  set_axes(model, modes, out);
-  out.mesh = make_mesh(model, discretization, out.axes, use);
-  fill(model, nullptr, nullptr, out);
+  set_axes(modes, out);
+  out.mesh = make_mesh(*out.model, discretization, out.axes, use);
+  fill(nullptr, nullptr, out);
   return out;
 }
 
 namespace {
 
 /// Structure of a model on a mesh, with axes and scales of another one.
-Structure built_anew(const Structure& structure, const ResolvedModel& model, Mesh mesh,
-                     TouchingSupports touching, const Neighbour* like) {
+Structure built_anew(const Structure& structure, std::shared_ptr<const ResolvedModel> model, Mesh mesh,
+                     TouchingSupports touching, const Structure* like) {
   Structure out;
+  out.model = std::move(model);
   out.geometry = structure.geometry;
   out.axes = structure.axes;
   out.origin = structure.origin;
   out.stress_free = structure.stress_free;
   out.mesh = std::move(mesh);
   out.touching = std::move(touching);
-  fill(model, &structure.scales, like, out);
+  fill(&structure.scales, like, out);
   out.free_motions = structure.free_motions;
   out.stop = structure.stop;
   return out;
@@ -712,29 +710,29 @@ bool has_same_axes(const ResolvedModel& a, const ResolvedModel& b, const ModeOff
 
 }  // namespace
 
-Structure on_mesh(const Structure& structure, const ResolvedModel& model, Mesh mesh) {
-  return built_anew(structure, model, std::move(mesh), structure.touching, nullptr);
+Structure on_mesh(const Structure& structure, Mesh mesh) {
+  return built_anew(structure, structure.model, std::move(mesh), structure.touching, nullptr);
 }
 
-Structure with_touching(const Structure& structure, const ResolvedModel& model, TouchingSupports touching) {
-  const Neighbour like{structure, model};
-  return built_anew(structure, model, structure.mesh, std::move(touching), &like);
+Structure with_touching(const Structure& structure, TouchingSupports touching) {
+  return built_anew(structure, structure.model, structure.mesh, std::move(touching), &structure);
 }
 
-Structure with_changed_model(const Structure& structure, const ResolvedModel& model,
-                             const ResolvedModel& changed, const ModeOffsets& modes) {
+Structure with_changed_model(const Structure& structure, ResolvedModel changed, const ModeOffsets& modes) {
+  const ResolvedModel& model = *structure.model;
   if (has_same_axes(model, changed, modes)) {
     Mesh mesh = moved_mesh(structure.mesh, model, structure.axes, changed, structure.axes);
-    const Neighbour like{structure, model};
     const bool same = mesh.elements == structure.mesh.elements;
-    return built_anew(structure, changed, std::move(mesh), structure.touching, same ? &like : nullptr);
+    return built_anew(structure, std::make_shared<const ResolvedModel>(std::move(changed)), std::move(mesh),
+                      structure.touching, same ? &structure : nullptr);
   }
   Structure out;
+  out.model = std::make_shared<const ResolvedModel>(std::move(changed));
   out.geometry = structure.geometry;
-  set_axes(changed, modes, out);
-  out.mesh = moved_mesh(structure.mesh, model, structure.axes, changed, out.axes);
+  set_axes(modes, out);
+  out.mesh = moved_mesh(structure.mesh, model, structure.axes, *out.model, out.axes);
   out.touching = structure.touching;
-  fill(changed, &structure.scales, nullptr, out);
+  fill(&structure.scales, nullptr, out);
   out.free_motions = structure.free_motions;
   out.stop = structure.stop;
   return out;

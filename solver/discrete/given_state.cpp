@@ -56,19 +56,20 @@ void set_element(const Structure& structure, const MemberSplines& member, int el
 }
 
 /// Lets the stops act that the members reach; equations linear in their forces then give these.
-void set_stops(const Structure& structure, const ResolvedModel& model, Eigen::VectorXd& y) {
+void set_stops(const Structure& structure, Eigen::VectorXd& y) {
+  const ResolvedModel& model = *structure.model;
   const double largest = y.head(3 * static_cast<Eigen::Index>(structure.nodes)).lpNorm<Eigen::Infinity>();
   for (std::size_t i = 0; structure.stops > 0 && i < model.springs.size(); ++i) {
     const SpringLaw& law = structure.spring_laws[i];
-    if (law.force_unknown >= 0 &&
-        reading_of(structure, model, i, y).depth > -GivenStateLimits::reached * largest)
+    if (law.force_unknown >= 0 && reading_of(structure, i, y).depth > -GivenStateLimits::reached * largest)
       y[law.force_unknown] = law.law.stiffness * largest;
   }
 }
 
 }  // namespace
 
-Eigen::VectorXd unknowns_of(const Structure& structure, const ResolvedModel& model, const StartState& state) {
+Eigen::VectorXd unknowns_of(const Structure& structure, const StartState& state) {
+  const ResolvedModel& model = *structure.model;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(structure.size);
   const auto shape_of = [&state](const std::string& id) -> const MemberShape& {
     const auto shape = std::find_if(state.members.begin(), state.members.end(),
@@ -80,7 +81,7 @@ Eigen::VectorXd unknowns_of(const Structure& structure, const ResolvedModel& mod
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     if (!model.springs[i].rod) continue;
     const MemberShape& shape = shape_of(model.springs[i].id);
-    const NodeSpring rod = rod_of(structure, model, i);
+    const NodeSpring rod = rod_of(structure, i);
     for (const auto& [node, at] : {std::pair{rod.node, std::size_t{0}}, {rod.to, shape.s.size() - 1}}) {
       y[3 * node] = shape.u[at] / structure.scales.length;
       y[3 * node + 1] = shape.v[at] / structure.scales.length;
@@ -92,7 +93,7 @@ Eigen::VectorXd unknowns_of(const Structure& structure, const ResolvedModel& mod
   for (std::size_t e = 0; e < structure.mesh.elements.size(); ++e)
     set_element(structure, members[static_cast<std::size_t>(structure.mesh.elements[e].member)],
                 static_cast<int>(e), y);
-  set_stops(structure, model, y);
+  set_stops(structure, y);
   return y;
 }
 

@@ -14,7 +14,6 @@ namespace snapthrough {
 /// @param state one shape for each member of the model, in the user's units
 /// @return scaled unknowns, near an equilibrium if the state is one of the same model
 /// @throws std::invalid_argument when two places of a member coincide
-[[nodiscard]] Eigen::VectorXd unknowns_of(const Structure& structure, const ResolvedModel& model,
-                                          const StartState& state);
+[[nodiscard]] Eigen::VectorXd unknowns_of(const Structure& structure, const StartState& state);
 
 }  // namespace snapthrough

@@ -50,7 +50,8 @@ MassPlace place_at(const CollocationRule& rule, double xi, double mass, double r
 }
 
 /// Collects the places of each element, in the model's units of mass and the scaled unit of length.
-std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, const ResolvedModel& model) {
+std::vector<std::vector<MassPlace>> collect_places(const Structure& structure) {
+  const ResolvedModel& model = *structure.model;
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const Quadrature gauss = gauss_legendre(rule.order() + 1);
   const double unit = structure.scales.length;
@@ -120,7 +121,8 @@ void add_forces(const Eigen::MatrixXd& block, Index a, Index v,
 }
 
 /// Motions of heavy places that supports leave free.
-Index free_motions_of_places(const Structure& structure, const ResolvedModel& model) {
+Index free_motions_of_places(const Structure& structure) {
+  const ResolvedModel& model = *structure.model;
   std::set<std::tuple<int, int, double, int>> motions;  // a place and a component
   for (const ResolvedPointMass& point : model.masses) {
     for (int c = 0; c < 3; ++c) {
@@ -137,8 +139,9 @@ Index free_motions_of_places(const Structure& structure, const ResolvedModel& mo
 
 bool is_heavy(const Section& section) { return section.mass && section.mass->largest() > 0.0; }
 
-MassMatrix make_mass_matrix(const Structure& structure, const ResolvedModel& model) {
-  const std::vector<std::vector<MassPlace>> places = collect_places(structure, model);
+MassMatrix make_mass_matrix(const Structure& structure) {
+  const ResolvedModel& model = *structure.model;
+  const std::vector<std::vector<MassPlace>> places = collect_places(structure);
   MassMatrix out;
   double total = 0.0;
   double length = 0.0;
@@ -169,7 +172,7 @@ MassMatrix make_mass_matrix(const Structure& structure, const ResolvedModel& mod
   }
   out.rank = std::any_of(model.sections.begin(), model.sections.end(), is_heavy)
                  ? structure.size
-                 : free_motions_of_places(structure, model);
+                 : free_motions_of_places(structure);
   return out;
 }
 

@@ -44,9 +44,8 @@ template <class AnyModel>
 
 /// @brief Masses of sections, integrated over the elements exactly for sections that do not taper, and point
 /// masses.
-/// @param model model of the structure
 /// @pre has_mass(model)
-[[nodiscard]] MassMatrix make_mass_matrix(const Structure& structure, const ResolvedModel& model);
+[[nodiscard]] MassMatrix make_mass_matrix(const Structure& structure);
 
 /// @brief M times each column of `motions`: forces on the unknowns of the elements, in global axes.
 [[nodiscard]] Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,

@@ -33,7 +33,8 @@ std::vector<int> elements_at_stops(const ResolvedModel& model, const Mesh& mesh)
 
 }  // namespace
 
-int node_of_stop(const Structure& structure, const ResolvedModel& model, const ResolvedSpring& stop) {
+int node_of_stop(const Structure& structure, const ResolvedSpring& stop) {
+  const ResolvedModel& model = *structure.model;
   if (!stop.at.is_on_member()) return stop.at.node;
   const int m = stop.at.member;
   const ResolvedMember& member = model.members[static_cast<std::size_t>(m)];
@@ -46,7 +47,8 @@ int node_of_stop(const Structure& structure, const ResolvedModel& model, const R
   return structure.first_stop_node + static_cast<int>(at - first);
 }
 
-void number_nodes(const ResolvedModel& model, Structure& structure) {
+void number_nodes(Structure& structure) {
+  const ResolvedModel& model = *structure.model;
   structure.first_ground = static_cast<int>(model.nodes.size());
   structure.first_stop_node = structure.first_ground + static_cast<int>(ground_displacements(model).size());
   structure.stop_elements = elements_at_stops(model, structure.mesh);

@@ -12,11 +12,10 @@ namespace snapthrough {
 
 /// @brief Node at which a stop acts; -1: inside an element.
 /// @pre mesh, Structure::stop_elements and Structure::first_stop_node are set
-[[nodiscard]] int node_of_stop(const Structure& structure, const ResolvedModel& model,
-                               const ResolvedSpring& stop);
+[[nodiscard]] int node_of_stop(const Structure& structure, const ResolvedSpring& stop);
 
 /// Sets Structure::first_ground, first_stop_node, stop_elements, parts_between_nodes and nodes.
 /// @pre the mesh is set
-void number_nodes(const ResolvedModel& model, Structure& structure);
+void number_nodes(Structure& structure);
 
 }  // namespace snapthrough

@@ -85,7 +85,8 @@ SparseRow displacement_row(const Structure& structure, const ResolvedLocation& a
   return out;
 }
 
-std::vector<MonitorRow> monitor_rows(const Structure& structure, const ResolvedModel& model) {
+std::vector<MonitorRow> monitor_rows(const Structure& structure) {
+  const ResolvedModel& model = *structure.model;
   std::vector<MonitorRow> out;
   for (const ResolvedMonitor& monitor : model.monitors) {
     std::array<double, 3> row{0.0, 0.0, 0.0};
@@ -107,7 +108,8 @@ std::vector<MonitorRow> monitor_rows(const Structure& structure, const ResolvedM
   return out;
 }
 
-std::vector<FollowerForce> follower_forces_of(const Structure& structure, const ResolvedModel& model) {
+std::vector<FollowerForce> follower_forces_of(const Structure& structure) {
+  const ResolvedModel& model = *structure.model;
   std::vector<FollowerForce> out;
   for (const ResolvedLoad& load : model.loads) {
     const auto* point = std::get_if<ResolvedPointLoad>(&load);
@@ -131,19 +133,19 @@ std::vector<FollowerForce> follower_forces_of(const Structure& structure, const 
   return out;
 }
 
-NodeSpring rod_of(const Structure& structure, const ResolvedModel& model, std::size_t index) {
+NodeSpring rod_of(const Structure& structure, std::size_t index) {
+  const ResolvedModel& model = *structure.model;
   const ResolvedSpring& spring = model.springs[index];
   return node_spring(structure.spring_laws[index], spring.at.node, spring.to->node);
 }
 
-SpringReading reading_of(const Structure& structure, const ResolvedModel& model, std::size_t index,
-                         const Eigen::VectorXd& y) {
+SpringReading reading_of(const Structure& structure, std::size_t index, const Eigen::VectorXd& y) {
+  const ResolvedModel& model = *structure.model;
   const ResolvedSpring& spring = model.springs[index];
   SpringReading out;
   std::array<double, 3> row = structure.spring_laws[index].row;
   if (spring.rod) {
-    const SpringMotion motion =
-        rod_of(structure, model, index).motion(y, structure.geometry == Geometry::linear);
+    const SpringMotion motion = rod_of(structure, index).motion(y, structure.geometry == Geometry::linear);
     out.displacement = motion.w;
     row = {motion.gradient[0], motion.gradient[1], 0.0};
   }
@@ -165,7 +167,8 @@ SpringReading reading_of(const Structure& structure, const ResolvedModel& model,
   return out;
 }
 
-ElementShape shape_of_element(const Structure& structure, const ResolvedModel& model, int element) {
+ElementShape shape_of_element(const Structure& structure, int element) {
+  const ResolvedModel& model = *structure.model;
   const MeshElement& e = structure.mesh.elements[element];
   const StressFreeAxis& axis = *structure.stress_free[e.member];
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);

@@ -85,6 +85,8 @@ struct FoundationPart {
 
 /// @brief All data for assembly, built once for a model and a mesh; constant afterwards.
 struct Structure {
+  std::shared_ptr<const ResolvedModel> model;
+  std::shared_ptr<const ResolvedModel> laws;  ///< with_joined_supports(), or `model`
   Scales scales;
   Mesh mesh;
   Geometry geometry = Geometry::nonlinear;
@@ -150,8 +152,7 @@ struct Structure {
 
 /// @brief Point forces of a model that turn with their places; none in linear geometry.
 /// @pre the unknowns and scales of the structure are set
-[[nodiscard]] std::vector<FollowerForce> follower_forces_of(const Structure& structure,
-                                                            const ResolvedModel& model);
+[[nodiscard]] std::vector<FollowerForce> follower_forces_of(const Structure& structure);
 
 /// Adds the moments of semi-rigid joints at the unknowns y to the rows of a residual.
 void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
@@ -170,7 +171,7 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
                                          std::array<double, 3> row);
 
 /// Rows that evaluate the monitors of a model. @pre the unknowns, axes and scales of the structure are set
-[[nodiscard]] std::vector<MonitorRow> monitor_rows(const Structure& structure, const ResolvedModel& model);
+[[nodiscard]] std::vector<MonitorRow> monitor_rows(const Structure& structure);
 
 /// Displacement of a spring into its medium at a state, with its derivative by the unknowns, and its
 /// reaction.
@@ -181,16 +182,15 @@ struct SpringReading {
   double depth = 0.0;  ///< a one-sided spring acts where this distance is positive
 };
 /// @param index index among the springs of the model
-[[nodiscard]] SpringReading reading_of(const Structure& structure, const ResolvedModel& model,
-                                       std::size_t index, const Eigen::VectorXd& y);
+[[nodiscard]] SpringReading reading_of(const Structure& structure, std::size_t index,
+                                       const Eigen::VectorXd& y);
 /// @brief Scaled spring along the present chord between two nodes that replaces a one-sided member, see
 /// with_rods_as_springs().
 /// @param index index among the springs of the model; that spring has a `rod`
-[[nodiscard]] NodeSpring rod_of(const Structure& structure, const ResolvedModel& model, std::size_t index);
+[[nodiscard]] NodeSpring rod_of(const Structure& structure, std::size_t index);
 
 /// @brief Stress-free geometry and compliances of an element, scaled.
-[[nodiscard]] ElementShape shape_of_element(const Structure& structure, const ResolvedModel& model,
-                                            int element);
+[[nodiscard]] ElementShape shape_of_element(const Structure& structure, int element);
 /// @brief Length of an element, scaled.
 [[nodiscard]] double length_of_element(const Structure& structure, int element);
 

@@ -20,8 +20,9 @@ struct StiffnessAtStop {
   double bending = 0.0;
 };
 
-StiffnessAtStop stiffness_at_stop(const ResolvedModel& model, const Structure& structure,
-                                  const ResolvedSpring& spring, const SpringLaw& law) {
+StiffnessAtStop stiffness_at_stop(const Structure& structure, const ResolvedSpring& spring,
+                                  const SpringLaw& law) {
+  const ResolvedModel& model = *structure.model;
   const Scales& scales = structure.scales;
   StiffnessAtStop sum;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
@@ -46,35 +47,35 @@ StiffnessAtStop stiffness_at_stop(const ResolvedModel& model, const Structure& s
 }
 
 /// Sets the law of a spring that stands for a stop. A stop at a node has its force as an unknown.
-void set_stop(const ResolvedModel& model, const Structure& structure, const ResolvedSpring& spring,
-              SpringLaw& law) {
-  const StiffnessAtStop members = stiffness_at_stop(model, structure, spring, law);
+void set_stop(const Structure& structure, const ResolvedSpring& spring, SpringLaw& law) {
+  const StiffnessAtStop members = stiffness_at_stop(structure, spring, law);
   law.law.stiffness = kStopStiffness * (members.axial + members.bending);
-  if (!is_stop(spring) || node_of_stop(structure, model, spring) < 0) return;
+  if (!is_stop(spring) || node_of_stop(structure, spring) < 0) return;
   law.give = 1.0 / law.law.stiffness;
   law.law.stiffness = members.bending;
 }
 
 }  // namespace
 
-void add_laws(const ResolvedModel& members, const ResolvedModel& supports, const Structure& structure,
-              std::vector<FoundationLaw>& foundations, std::vector<SpringLaw>& springs) {
+void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<ResolvedFoundation>& foundations,
+              const Structure& structure, std::vector<SpringLaw>& spring_laws,
+              std::vector<FoundationLaw>& foundation_laws) {
   int ground = 3 * structure.first_ground;
   const auto ground_under = [&ground](const auto& support) {
     if (!support.displacement) return -1;
     ground += 3;
     return ground - 3;
   };
-  for (const ResolvedSpring& spring : supports.springs) {
-    SpringLaw& law = springs.emplace_back(law_of(spring, structure.scales));
+  for (const ResolvedSpring& spring : springs) {
+    SpringLaw& law = spring_laws.emplace_back(law_of(spring, structure.scales));
     law.ground = ground_under(spring);
-    if (!std::isfinite(law.law.stiffness)) set_stop(members, structure, spring, law);
+    if (!std::isfinite(law.law.stiffness)) set_stop(structure, spring, law);
   }
-  for (const ResolvedFoundation& foundation : supports.foundations) {
-    foundations.push_back(law_of(foundation, structure.scales, structure.origin));
-    foundations.back().fixed_tangents =
+  for (const ResolvedFoundation& foundation : foundations) {
+    foundation_laws.push_back(law_of(foundation, structure.scales, structure.origin));
+    foundation_laws.back().fixed_tangents =
         structure.geometry == Geometry::linear || structure.mesh.foundation == FoundationRule::lumped;
-    foundations.back().ground = ground_under(foundation);
+    foundation_laws.back().ground = ground_under(foundation);
   }
 }
 
@@ -88,7 +89,8 @@ std::vector<PrescribedDisplacement> ground_displacements(const ResolvedModel& mo
   return out;
 }
 
-void bound_stiffness(const ResolvedModel& model, Structure& structure) {
+void bound_stiffness(Structure& structure) {
+  const ResolvedModel& model = *structure.model;
   const Mesh& mesh = structure.mesh;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const AlongMember& EI = model.sections[model.members[m].section].EI;

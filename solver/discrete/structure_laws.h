@@ -10,15 +10,15 @@
 
 namespace snapthrough {
 
-/// @brief Appends the scaled laws of a model's supports.
-/// @param members model whose members they support; @param supports the same model, or one with joined
-/// supports
-/// @pre scales, axes, origin, geometry, mesh and nodes of the structure are set
-void add_laws(const ResolvedModel& members, const ResolvedModel& supports, const Structure& structure,
-              std::vector<FoundationLaw>& foundations, std::vector<SpringLaw>& springs);
+/// @brief Appends the scaled laws of supports.
+/// @param springs, foundations those of Structure::model, or of Structure::laws
+/// @pre model, scales, axes, origin, geometry, mesh and nodes of the structure are set
+void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<ResolvedFoundation>& foundations,
+              const Structure& structure, std::vector<SpringLaw>& spring_laws,
+              std::vector<FoundationLaw>& foundation_laws);
 
 /// Sets Structure::stiffest and Structure::stiffest_rigid. @pre scales, axes and mesh are set
-void bound_stiffness(const ResolvedModel& model, Structure& structure);
+void bound_stiffness(Structure& structure);
 
 /// @brief Largest stiffness with which a foundation acts on a member, in the model's units.
 /// @pre bound_stiffness() was called

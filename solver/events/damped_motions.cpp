@@ -18,13 +18,12 @@ using Eigen::MatrixXd;
 constexpr double kOscillates = 1e-6;
 
 /// Y^T K X: section forces of the motions times their strains, and moments of joints times their rotations.
-MatrixXd elastic_work(const Structure& structure, const ResolvedModel& model, const MatrixXd& Y,
-                      const MatrixXd& X) {
+MatrixXd elastic_work(const Structure& structure, const MatrixXd& Y, const MatrixXd& X) {
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const int p = rule.order();
   MatrixXd out = MatrixXd::Zero(Y.cols(), X.cols());
   for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
-    const ElementShape shape = shape_of_element(structure, model, static_cast<int>(e));
+    const ElementShape shape = shape_of_element(structure, static_cast<int>(e));
     const Index s = structure.dofs[e].s;
     for (int q = 0; q < p; ++q) {
       const double hb = shape.length * rule.weight(q);
@@ -61,15 +60,16 @@ MatrixXd action_of(const NaturalMotions& motions) {
 
 }  // namespace
 
-GrowingMotion most_growing(const Structure& structure, const ResolvedModel& model, const MassMatrix& masses,
-                           const NaturalMotions& right, const NaturalMotions& left) {
+GrowingMotion most_growing(const Structure& structure, const MassMatrix& masses, const NaturalMotions& right,
+                           const NaturalMotions& left) {
+  const ResolvedModel& model = *structure.model;
   const MatrixXd& X = right.motions;
   const MatrixXd& Y = left.motions;
   const Index n = X.cols();
   const double unit = std::sqrt(masses.square);  // unit of frequencies
   const MatrixXd M = Y.transpose() * mass_products(structure, masses, X);
   const MatrixXd C =
-      model.damping.mass / unit * M + model.damping.stiffness * unit * elastic_work(structure, model, Y, X);
+      model.damping.mass / unit * M + model.damping.stiffness * unit * elastic_work(structure, Y, X);
   MatrixXd companion = MatrixXd::Zero(2 * n, 2 * n);
   companion.topRightCorner(n, n).setIdentity();
   companion.bottomLeftCorner(n, n) = -action_of(right);

@@ -18,10 +18,8 @@ struct GrowingMotion {
 ///
 /// (s^2 M + s C + J) x = 0 with C = alpha M + beta K, K the elastic stiffness of members and their joints, on
 /// the span of undamped motions: s to first order in the damping of the motions that were left out.
-/// @param model model of the structure, with Model::damping
 /// @param right, left motions of J and of its transpose; equal numbers
-[[nodiscard]] GrowingMotion most_growing(const Structure& structure, const ResolvedModel& model,
-                                         const MassMatrix& masses, const NaturalMotions& right,
-                                         const NaturalMotions& left);
+[[nodiscard]] GrowingMotion most_growing(const Structure& structure, const MassMatrix& masses,
+                                         const NaturalMotions& right, const NaturalMotions& left);
 
 }  // namespace snapthrough

@@ -133,9 +133,11 @@ auto closed_by_load(double tolerance) {
 
 }  // namespace
 
-FlutterSearch::FlutterSearch(const Structure& structure, const ResolvedModel& model,
-                             StructuralProblem::Stage stage)
-    : problem_(structure), structure_(structure), model_(model), masses_(make_mass_matrix(structure, model)) {
+FlutterSearch::FlutterSearch(const Structure& structure, StructuralProblem::Stage stage)
+    : problem_(structure),
+      structure_(structure),
+      model_(*structure.model),
+      masses_(make_mass_matrix(structure)) {
   problem_.set_stage(stage);
   for (Eigen::MatrixXd& forces : follower_parts(structure, FlutterLimits::forces)) {
     Part& part = parts_.emplace_back();
@@ -162,7 +164,7 @@ FlutterSearch::Sample FlutterSearch::sample(Part& part, const PathPoint& point) 
   problem_.set_transposed(false);
   part.left.begin_with(left);
   if (left.motions.cols() == out.motions.motions.cols())
-    out.growing = most_growing(structure_, model_, masses_, out.motions, left);
+    out.growing = most_growing(structure_, masses_, out.motions, left);
   return out;
 }
 

@@ -44,10 +44,10 @@ struct StepVibrations {
 /// the forces at the places of its loads excite (follower_parts()).
 class FlutterSearch {
  public:
-  /// @param structure, model kept by reference; must outlive this object
+  /// @param structure kept by reference; must outlive this object
   /// @param stage actions that the load factor multiplies
   /// @pre structure.unsymmetric() and has_mass(model)
-  FlutterSearch(const Structure& structure, const ResolvedModel& model,
+  FlutterSearch(const Structure& structure,
                 StructuralProblem::Stage stage = StructuralProblem::Stage::proportional);
 
   /// @brief Follows the natural motions between two points of a path.

@@ -54,9 +54,9 @@ bool is_known(const TouchingSupports& touching) {
 }
 
 /// Finds which of the supports that touch under a reference load act; empty: no buckling load was found.
-TouchingSupports least_piece(const ResolvedModel& model, const Structure& structure, double reference,
-                             const VectorXd& near, LinearBuckling& buckling) {
-  const Structure unknown = with_touching(structure, model, {});
+TouchingSupports least_piece(const Structure& structure, double reference, const VectorXd& near,
+                             LinearBuckling& buckling) {
+  const Structure unknown = with_touching(structure, {});
   StructuralProblem problem(unknown);
   buckling = linear_buckling(unknown, problem, 1, reference, near);
   if (!buckling.piece.found || !buckling.complete || buckling.loads.empty()) return {};
@@ -82,9 +82,8 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
 
 }  // namespace
 
-std::optional<Structure> with_least_piece(const ResolvedModel& model, const Structure& structure,
-                                          StructuralProblem& problem, const PathNorm& norm,
-                                          const PathStart& start, Result& result) {
+std::optional<Structure> with_least_piece(const Structure& structure, StructuralProblem& problem,
+                                          const PathNorm& norm, const PathStart& start, Result& result) {
   if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
   const std::optional<PathPoint>& point = start.point;
   const bool is_loose = start.contact_flexibility_ratio > TouchingLimits::loose;
@@ -97,18 +96,18 @@ std::optional<Structure> with_least_piece(const ResolvedModel& model, const Stru
       return std::nullopt;
   }
   LinearBuckling buckling;
-  TouchingSupports touching = least_piece(model, structure, ahead, {}, buckling);
+  TouchingSupports touching = least_piece(structure, ahead, {}, buckling);
   result.diagnostics.factorizations += buckling.factorizations;
   if (!is_known(touching)) return std::nullopt;
-  std::optional<Structure> out = with_touching(structure, model, std::move(touching));
+  std::optional<Structure> out = with_touching(structure, std::move(touching));
   const VectorXd from = point ? point->y : VectorXd::Zero(structure.size);
   if (!still_touch(*out, from, TouchingLimits::on_the_way * buckling.loads.front())) return std::nullopt;
   warn_of_touching(structure, buckling.piece, result);
   return out;
 }
 
-Structure with_finer_piece(const ResolvedModel& model, const Structure& coarse, Mesh mesh) {
-  Structure fine = on_mesh(coarse, model, std::move(mesh));
+Structure with_finer_piece(const Structure& coarse, Mesh mesh) {
+  Structure fine = on_mesh(coarse, std::move(mesh));
   const auto& parts = fine.touching.foundations;
   const auto acts = [](const TouchingSupports::FoundationRange& part) { return part.touch == Touch::acts; };
   // without contact ends the result does not depend on the mesh
@@ -116,8 +115,8 @@ Structure with_finer_piece(const ResolvedModel& model, const Structure& coarse, 
     return fine;
   LinearBuckling buckling;
   const VectorXd near = transfer(coarse, coarse.touching.motion, fine);
-  TouchingSupports touching = least_piece(model, fine, coarse.touching.reference, near, buckling);
-  return is_known(touching) ? with_touching(fine, model, std::move(touching)) : std::move(fine);
+  TouchingSupports touching = least_piece(fine, coarse.touching.reference, near, buckling);
+  return is_known(touching) ? with_touching(fine, std::move(touching)) : std::move(fine);
 }
 
 void warn_of_touching(const Structure& structure, const LeastPiece& piece, Result& result) {

@@ -24,14 +24,13 @@ namespace snapthrough {
 /// @param start without a point: none was found
 /// @return structure with the state of the touching supports, to start the path anew; empty when no support
 /// touches, or no buckling load was found
-[[nodiscard]] std::optional<Structure> with_least_piece(const ResolvedModel& model,
-                                                        const Structure& structure,
+[[nodiscard]] std::optional<Structure> with_least_piece(const Structure& structure,
                                                         StructuralProblem& problem, const PathNorm& norm,
                                                         const PathStart& start, Result& result);
 
 /// @brief Structure on a finer mesh, with the contact ends of the critical motion computed on that mesh.
 /// @param coarse structure of with_least_piece(), or of this function
-[[nodiscard]] Structure with_finer_piece(const ResolvedModel& model, const Structure& coarse, Mesh mesh);
+[[nodiscard]] Structure with_finer_piece(const Structure& coarse, Mesh mesh);
 
 /// @brief Adds a warning to the result when the least load over the pieces is not proven.
 void warn_of_touching(const Structure& structure, const LeastPiece& piece, Result& result);

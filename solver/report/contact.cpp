@@ -35,8 +35,9 @@ std::vector<std::array<double, 2>> layer_intervals(const Structure& structure, c
 
 }  // namespace
 
-std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const ResolvedModel& model,
-                                                     const Eigen::VectorXd& y, int foundation, double depth) {
+std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const Eigen::VectorXd& y,
+                                                     int foundation, double depth) {
+  const ResolvedModel& model = *structure.model;
   if (initial_stiffness(model.foundations[foundation]) == 0.0) return {};
   if (structure.foundation_laws[static_cast<std::size_t>(foundation)].has_layer())
     return layer_intervals(structure, y, foundation, depth);
@@ -61,8 +62,8 @@ std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
   return joined;
 }
 
-ContactZones::ContactZones(const Structure& structure, const ResolvedModel& model)
-    : structure_(structure), model_(model) {
+ContactZones::ContactZones(const Structure& structure) : structure_(structure), model_(*structure.model) {
+  const ResolvedModel& model = *structure.model;
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
     if (!is_one_sided(model.foundations[i])) continue;
     foundations_.push_back(static_cast<int>(i));
@@ -79,9 +80,9 @@ void ContactZones::count(const Eigen::VectorXd& y, std::vector<int>& zones) cons
   zones.clear();
   for (const int foundation : foundations_)
     zones.push_back(
-        static_cast<int>(contact_intervals(structure_, model_, y, foundation, Rounding::last_places).size()));
+        static_cast<int>(contact_intervals(structure_, y, foundation, Rounding::last_places).size()));
   for (const std::size_t i : springs_) {
-    const double depth = reading_of(structure_, model_, i, y).depth;
+    const double depth = reading_of(structure_, i, y).depth;
     zones.push_back(depth > Rounding::last_places ? 1 : 0);
   }
 }

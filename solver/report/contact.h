@@ -16,7 +16,6 @@ namespace snapthrough {
 /// joined; the whole range for a bilateral foundation.
 /// @param depth least penetration over the structure's length that counts as contact, >= 0
 [[nodiscard]] std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
-                                                                   const ResolvedModel& model,
                                                                    const Eigen::VectorXd& y, int foundation,
                                                                    double depth = 0.0);
 
@@ -24,8 +23,8 @@ namespace snapthrough {
 /// Penetrations within the rounding of positions do not count, because their zones change at every step.
 class ContactZones {
  public:
-  /// @param structure, model kept by reference; must outlive this object
-  ContactZones(const Structure& structure, const ResolvedModel& model);
+  /// @param structure kept by reference; must outlive this object
+  ContactZones(const Structure& structure);
 
   /// Ids of the counted supports, in the order of the counts; empty: no support is one-sided.
   [[nodiscard]] const std::vector<std::string>& ids() const { return ids_; }

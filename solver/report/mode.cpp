@@ -27,8 +27,9 @@ struct ModeLimits {
   static constexpr int points_per_element = 8;       ///< points of the spline through a mode
 };
 
-MemberMode member_mode(const Structure& structure, const ResolvedModel& model, std::size_t member,
-                       const Eigen::VectorXd& mode, int points) {
+MemberMode member_mode(const Structure& structure, std::size_t member, const Eigen::VectorXd& mode,
+                       int points) {
+  const ResolvedModel& model = *structure.model;
   const double L = structure.scales.length;
   MemberMode out;
   out.id = model.members[member].id;
@@ -55,12 +56,12 @@ std::array<int, 2> ends_of(const ResolvedModel& model, const std::string& id) {
 
 }  // namespace
 
-Mode mode_displacements(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& mode,
-                        int points) {
+Mode mode_displacements(const Structure& structure, const Eigen::VectorXd& mode, int points) {
+  const ResolvedModel& model = *structure.model;
   Mode out;
   for (std::size_t m = 0; m < model.members.size(); ++m)
-    out.members.push_back(member_mode(structure, model, m, mode, points));
-  const auto mode_of = [&](std::size_t spring) { return rod_mode(structure, model, spring, mode, points); };
+    out.members.push_back(member_mode(structure, m, mode, points));
+  const auto mode_of = [&](std::size_t spring) { return rod_mode(structure, spring, mode, points); };
   insert_rods(model.springs, mode_of, out.members);
   return out;
 }
@@ -145,8 +146,8 @@ std::string motion_text(const Mode& mode, const ResolvedModel& model) {
          component(along.v[place]) + ")";
 }
 
-std::optional<std::size_t> member_that_buckles(const Structure& structure, const ResolvedModel& model,
-                                               const Eigen::VectorXd& mode) {
+std::optional<std::size_t> member_that_buckles(const Structure& structure, const Eigen::VectorXd& mode) {
+  const ResolvedModel& model = *structure.model;
   const int p = structure.mesh.order;
   const CollocationRule& rule = CollocationRule::of(p);
   const double length = structure.scales.length;
@@ -172,8 +173,9 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
   return static_cast<std::size_t>(most - energy.begin());
 }
 
-std::vector<CubicSpline> normal_offsets(const Structure& structure, const ResolvedModel& model,
-                                        const Eigen::VectorXd& mode, double amplitude) {
+std::vector<CubicSpline> normal_offsets(const Structure& structure, const Eigen::VectorXd& mode,
+                                        double amplitude) {
+  const ResolvedModel& model = *structure.model;
   std::vector<std::vector<double>> s(model.members.size());
   std::vector<std::vector<double>> w(model.members.size());
   double largest = 0.0;
@@ -181,7 +183,7 @@ std::vector<CubicSpline> normal_offsets(const Structure& structure, const Resolv
     const int points =
         ModeLimits::points_per_element * (structure.mesh.first[m + 1] - structure.mesh.first[m]) + 1;
     const AxisCurve& axis = *structure.axes[m];
-    const MemberMode member = member_mode(structure, model, m, mode, points);
+    const MemberMode member = member_mode(structure, m, mode, points);
     for (std::size_t i = 0; i < member.s.size(); ++i) {
       const double angle = axis.at(member.s[i]).angle;
       s[m].push_back(member.s[i]);

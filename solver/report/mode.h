@@ -18,8 +18,7 @@ namespace snapthrough {
 /// @brief Displacements of a vector of unknowns at `points` equally spaced places per member, not normalised.
 /// @param mode scaled unknowns; the result is in the model's units
 /// @pre points >= 2
-[[nodiscard]] Mode mode_displacements(const Structure& structure, const ResolvedModel& model,
-                                      const Eigen::VectorXd& mode, int points);
+[[nodiscard]] Mode mode_displacements(const Structure& structure, const Eigen::VectorXd& mode, int points);
 
 /// @brief Normalises a mode: largest sampled displacement one, first large component positive; by the largest
 /// rotation if only rotations occur.
@@ -44,12 +43,11 @@ inline double scale_to_largest(Mode& mode) { return scale_to_largest(std::span(&
 /// @param mode scaled unknowns including section forces
 /// @return index of the member; empty when no member has that share
 [[nodiscard]] std::optional<std::size_t> member_that_buckles(const Structure& structure,
-                                                             const ResolvedModel& model,
                                                              const Eigen::VectorXd& mode);
 
 /// @brief Offsets along the initial left normals over arc length (model's units), from an eigenvector scaled
 /// to the largest offset `amplitude`; one spline per member.
-[[nodiscard]] std::vector<CubicSpline> normal_offsets(const Structure& structure, const ResolvedModel& model,
-                                                      const Eigen::VectorXd& mode, double amplitude);
+[[nodiscard]] std::vector<CubicSpline> normal_offsets(const Structure& structure, const Eigen::VectorXd& mode,
+                                                      double amplitude);
 
 }  // namespace snapthrough

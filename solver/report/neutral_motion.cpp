@@ -37,7 +37,8 @@ MatrixXd reduced(MatrixXd motions) {
   return motions;
 }
 
-NeutralMotion told(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& motion) {
+NeutralMotion told(const Structure& structure, const Eigen::VectorXd& motion) {
+  const ResolvedModel& model = *structure.model;
   double displaced = 0.0;
   for (int j = 0; j < structure.first_ground; ++j)
     displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
@@ -62,12 +63,11 @@ NeutralMotion told(const Structure& structure, const ResolvedModel& model, const
 
 }  // namespace
 
-std::vector<NeutralMotion> neutral_motions(const Structure& structure, const ResolvedModel& model,
-                                           const SharedHolds& holds) {
+std::vector<NeutralMotion> neutral_motions(const Structure& structure, const SharedHolds& holds) {
   std::vector<NeutralMotion> out;
   if (!holds) return out;
   const MatrixXd motions = reduced(holds->motions);
-  for (Index i = 0; i < motions.cols(); ++i) out.push_back(told(structure, model, motions.col(i)));
+  for (Index i = 0; i < motions.cols(); ++i) out.push_back(told(structure, motions.col(i)));
   return out;
 }
 
@@ -80,7 +80,7 @@ void NeutralMotionLog::note(const SharedHolds& holds, double load_factor) {
   });
   for (NeutralMotion& motion : out_)
     if (motion.branch == branch_ && !motion.to) motion.to = load_factor;
-  for (NeutralMotion& motion : neutral_motions(structure_, model_, holds_)) {
+  for (NeutralMotion& motion : neutral_motions(structure_, holds_)) {
     motion.branch = branch_;
     motion.from = load_factor;
     out_.push_back(std::move(motion));

@@ -16,15 +16,14 @@ namespace snapthrough {
 /// @param holds null: no motions
 /// @return motions without branch and load factors
 [[nodiscard]] std::vector<NeutralMotion> neutral_motions(const Structure& structure,
-                                                         const ResolvedModel& model,
                                                          const SharedHolds& holds);
 
 /// @brief Records the load factor range in which motions are free along a path.
 class NeutralMotionLog {
  public:
-  /// @param structure, model, out kept by reference; must outlive this object
-  NeutralMotionLog(const Structure& structure, const ResolvedModel& model, std::vector<NeutralMotion>& out)
-      : structure_(structure), model_(model), out_(out) {}
+  /// @param structure, out kept by reference; must outlive this object
+  NeutralMotionLog(const Structure& structure, std::vector<NeutralMotion>& out)
+      : structure_(structure), model_(*structure.model), out_(out) {}
 
   /// Starts a branch; motions of the previous branch end.
   void start(int branch) {

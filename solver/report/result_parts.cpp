@@ -49,10 +49,9 @@ void fail(Result& result, const char* code, const std::string& detail) {
   result.summary.message = detail;
 }
 
-Mode mode_at(const Structure& structure, const ResolvedModel& model, EquilibriumProblem& problem,
-             const CriticalEvent& event, const Analysis& analysis) {
-  Mode mode =
-      mode_displacements(structure, model, mode_of(problem, event), analysis.output.points_per_member);
+Mode mode_at(const Structure& structure, EquilibriumProblem& problem, const CriticalEvent& event,
+             const Analysis& analysis) {
+  Mode mode = mode_displacements(structure, mode_of(problem, event), analysis.output.points_per_member);
   scale_to_largest(mode);
   return mode;
 }

@@ -16,8 +16,8 @@ namespace snapthrough {
 
 /// @brief Mode of a critical point at the requested points of each member.
 /// @param problem problem of `structure`; factorised again
-[[nodiscard]] Mode mode_at(const Structure& structure, const ResolvedModel& model,
-                           EquilibriumProblem& problem, const CriticalEvent& event, const Analysis& analysis);
+[[nodiscard]] Mode mode_at(const Structure& structure, EquilibriumProblem& problem,
+                           const CriticalEvent& event, const Analysis& analysis);
 
 /// Adds the steps, corrections and factorisations of a path to the diagnostics of a result, and keeps the
 /// larger of their largest residuals.

@@ -5,11 +5,12 @@
 #include <cstddef>
 
 namespace snapthrough {
-RigidMotions::RigidMotions(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y)
+RigidMotions::RigidMotions(const Structure& structure, const Eigen::VectorXd& y)
     : structure_(structure),
       x_(Eigen::VectorXd::Zero(structure.size)),
       y_(Eigen::VectorXd::Zero(structure.size)),
       rotation_(Eigen::VectorXd::Zero(structure.size)) {
+  const ResolvedModel& model = *structure.model;
   const int p = structure.mesh.order;
   const double L = structure.scales.length;
   const double moved = structure.geometry == Geometry::linear ? 0.0 : 1.0;
@@ -29,7 +30,7 @@ RigidMotions::RigidMotions(const Structure& structure, const ResolvedModel& mode
     const MeshElement& cell = structure.mesh.elements[e];
     const ElementDofs& dofs = structure.dofs[e];
     const StressFreeAxis& axis = *structure.stress_free[cell.member];
-    const ElementShape shape = shape_of_element(structure, model, static_cast<int>(e));
+    const ElementShape shape = shape_of_element(structure, static_cast<int>(e));
     for (const bool end : {true, false}) {
       const StressFreePoint at = axis.at(axis.perfect().length() * (end ? cell.to : cell.from));
       const std::array<int, 3>& node = end ? dofs.b : dofs.a;

@@ -24,7 +24,7 @@ class RigidMotions {
  public:
   /// @param structure kept by reference; must outlive this object
   /// @param y unknowns; ignored for a linear geometry, whose positions are undeformed
-  RigidMotions(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y);
+  RigidMotions(const Structure& structure, const Eigen::VectorXd& y);
 
   /// Work of forces given in the rows of the problem (right-hand side).
   [[nodiscard]] Wrench work(const Eigen::VectorXd& forces) const;

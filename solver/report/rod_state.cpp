@@ -27,9 +27,9 @@ void set_peaks(MemberState& rod) {
 
 }  // namespace
 
-MemberMode rod_mode(const Structure& structure, const ResolvedModel& model, std::size_t spring,
-                    const VectorXd& mode, int points) {
-  const NodeSpring rod = rod_of(structure, model, spring);
+MemberMode rod_mode(const Structure& structure, std::size_t spring, const VectorXd& mode, int points) {
+  const ResolvedModel& model = *structure.model;
+  const NodeSpring rod = rod_of(structure, spring);
   const double L = structure.scales.length;
   const Vector3d from = displacement_of(mode, rod.node);
   const Vector3d change = displacement_of(mode, rod.to) - from;
@@ -46,9 +46,9 @@ MemberMode rod_mode(const Structure& structure, const ResolvedModel& model, std:
   return out;
 }
 
-MemberState rod_state(const Structure& structure, const ResolvedModel& model, std::size_t spring,
-                      const VectorXd& y, int points) {
-  const NodeSpring rod = rod_of(structure, model, spring);
+MemberState rod_state(const Structure& structure, std::size_t spring, const VectorXd& y, int points) {
+  const ResolvedModel& model = *structure.model;
+  const NodeSpring rod = rod_of(structure, spring);
   const bool is_linear = structure.geometry == Geometry::linear;
   const SpringMotion motion = rod.motion(y, is_linear);
   const double force = -in_users_sense(rod.sense, structure.scales.force * rod.law.reaction(motion.w));
@@ -56,7 +56,7 @@ MemberState rod_state(const Structure& structure, const ResolvedModel& model, st
   const Vector3d along = rod.sense * rod.direction();
   const Node& start = model.nodes[model.springs[spring].at.node];
   const Node& end = model.nodes[model.springs[spring].to->node];
-  MemberMode moved = rod_mode(structure, model, spring, y, points);
+  MemberMode moved = rod_mode(structure, spring, y, points);
   MemberState out;
   out.id = moved.id;
   out.s = std::move(moved.s);

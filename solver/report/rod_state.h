@@ -14,11 +14,11 @@ namespace snapthrough {
 /// @brief State of a rod: straight between its nodes, with a constant axial force and no other section force.
 /// @param spring index of the spring that stands for the rod
 /// @param y, points as for make_state()
-[[nodiscard]] MemberState rod_state(const Structure& structure, const ResolvedModel& model,
-                                    std::size_t spring, const Eigen::VectorXd& y, int points);
+[[nodiscard]] MemberState rod_state(const Structure& structure, std::size_t spring, const Eigen::VectorXd& y,
+                                    int points);
 
 /// @brief Displacements of a rod in a vector of unknowns, as for mode_displacements().
-[[nodiscard]] MemberMode rod_mode(const Structure& structure, const ResolvedModel& model, std::size_t spring,
-                                  const Eigen::VectorXd& mode, int points);
+[[nodiscard]] MemberMode rod_mode(const Structure& structure, std::size_t spring, const Eigen::VectorXd& mode,
+                                  int points);
 
 }  // namespace snapthrough

@@ -14,10 +14,10 @@ using Vec2 = std::array<double, 2>;
 
 }  // namespace
 
-SectionForces::SectionForces(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
-                             double lambda, const std::vector<LayerState>& layers, int element)
+SectionForces::SectionForces(const Structure& structure, const Eigen::VectorXd& y, double lambda,
+                             const std::vector<LayerState>& layers, int element)
     : structure_(structure),
-      model_(model),
+      model_(*structure.model),
       element_(element),
       cell_(structure.mesh.elements[element]),
       reader_(structure, y, element),
@@ -154,7 +154,7 @@ void SectionForces::add_springs(const Eigen::VectorXd& y) {
     // a stop at the end of a member acts on the node
     if (structure_.spring_laws[i].force_unknown >= 0 && place.xi == 1.0) continue;
     const auto& row = structure_.spring_laws[i].row;
-    const double force = -reading_of(structure_, model_, i, y).force;
+    const double force = -reading_of(structure_, i, y).force;
     points_.push_back({place.xi, {force * row[0], force * row[1], force * row[2]}});
   }
 }

@@ -27,8 +27,8 @@ class SectionForces {
  public:
   /// @param lambda scaled load factor of the state y
   /// @param layers see layer_states(); not used after construction
-  SectionForces(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
-                double lambda, const std::vector<LayerState>& layers, int element);
+  SectionForces(const Structure& structure, const Eigen::VectorXd& y, double lambda,
+                const std::vector<LayerState>& layers, int element);
 
   /// (force x, force y, moment) at xi in [0, 1] of the part beyond xi on the part before it, scaled.
   [[nodiscard]] std::array<double, 3> at(double xi) const;

@@ -24,14 +24,13 @@ namespace {
 /// Reads displacements and section forces of one member in a state.
 class MemberReader {
  public:
-  MemberReader(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
-               double lambda, const std::vector<LayerState>& layers, int member)
+  MemberReader(const Structure& structure, const Eigen::VectorXd& y, double lambda,
+               const std::vector<LayerState>& layers, int member)
       : structure_(structure), axis_(*structure.stress_free[member]), member_(member) {
     const int first = structure.mesh.first[static_cast<std::size_t>(member)];
     const int end = structure.mesh.first[static_cast<std::size_t>(member) + 1];
     for (int e = first; e < end; ++e)
-      elements_.push_back(
-          {ElementReader(structure, y, e), SectionForces(structure, model, y, lambda, layers, e)});
+      elements_.push_back({ElementReader(structure, y, e), SectionForces(structure, y, lambda, layers, e)});
   }
 
   /// Values at a place, in the model's units.
@@ -147,11 +146,11 @@ MeshPlace place_under(const Mesh& mesh, int member, const ResolvedFoundation& fo
 /// Reads the reaction of one foundation along its range in a state.
 class FoundationReader {
  public:
-  FoundationReader(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
-                   int index, const std::vector<std::array<double, 2>>& contact)
+  FoundationReader(const Structure& structure, const Eigen::VectorXd& y, int index,
+                   const std::vector<std::array<double, 2>>& contact)
       : structure_(structure),
         y_(y),
-        foundation_(model.foundations[static_cast<std::size_t>(index)]),
+        foundation_(structure.model->foundations[static_cast<std::size_t>(index)]),
         member_(foundation_.member),
         law_(structure.foundation_laws[static_cast<std::size_t>(index)]),
         contact_(contact) {}
@@ -219,13 +218,14 @@ PeakRange FoundationReader::peaks(const FoundationState& known) const {
   return search.range(0, values_at);
 }
 
-FoundationState foundation_state(const Structure& structure, const ResolvedModel& model,
-                                 const Eigen::VectorXd& y, int index, int points) {
+FoundationState foundation_state(const Structure& structure, const Eigen::VectorXd& y, int index,
+                                 int points) {
+  const ResolvedModel& model = *structure.model;
   const ResolvedFoundation& foundation = model.foundations[static_cast<std::size_t>(index)];
   FoundationState out;
   out.id = foundation.id;
-  out.contact = contact_intervals(structure, model, y, index);
-  const FoundationReader reader(structure, model, y, index, out.contact);
+  out.contact = contact_intervals(structure, y, index);
+  const FoundationReader reader(structure, y, index, out.contact);
   for (int i = 0; i < points; ++i) {
     const double fraction =
         foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
@@ -240,33 +240,33 @@ FoundationState foundation_state(const Structure& structure, const ResolvedModel
 
 }  // namespace
 
-std::vector<MemberState> member_states(const Structure& structure, const ResolvedModel& model,
-                                       const Eigen::VectorXd& y, double lambda, int points) {
+std::vector<MemberState> member_states(const Structure& structure, const Eigen::VectorXd& y, double lambda,
+                                       int points) {
+  const ResolvedModel& model = *structure.model;
   std::vector<MemberState> out;
   const std::vector<LayerState> layers = layer_states(structure, y);
   for (std::size_t m = 0; m < model.members.size(); ++m)
-    out.push_back(member_state(MemberReader(structure, model, y, lambda, layers, static_cast<int>(m)),
-                               structure, model.members[m].id, points));
-  const auto state_of = [&](std::size_t spring) { return rod_state(structure, model, spring, y, points); };
+    out.push_back(member_state(MemberReader(structure, y, lambda, layers, static_cast<int>(m)), structure,
+                               model.members[m].id, points));
+  const auto state_of = [&](std::size_t spring) { return rod_state(structure, spring, y, points); };
   insert_rods(model.springs, state_of, out);
   return out;
 }
 
-State make_state(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
-                 double lambda, int points) {
+State make_state(const Structure& structure, const Eigen::VectorXd& y, double lambda, int points) {
+  const ResolvedModel& model = *structure.model;
   State state;
   state.load_factor = lambda / structure.scales.load;
-  state.members = member_states(structure, model, y, lambda, points);
+  state.members = member_states(structure, y, lambda, points);
   for (std::size_t i = 0; i < model.foundations.size(); ++i)
-    state.foundations.push_back(foundation_state(structure, model, y, static_cast<int>(i), points));
-  static_cast<void>(add_forces_on_structure(structure, model, y, lambda, state));
+    state.foundations.push_back(foundation_state(structure, y, static_cast<int>(i), points));
+  static_cast<void>(add_forces_on_structure(structure, y, lambda, state));
   return state;
 }
 
-double imbalance(const Structure& structure, const ResolvedModel& model, const Eigen::VectorXd& y,
-                 double lambda) {
+double imbalance(const Structure& structure, const Eigen::VectorXd& y, double lambda) {
   State forces;
-  return add_forces_on_structure(structure, model, y, lambda, forces);
+  return add_forces_on_structure(structure, y, lambda, forces);
 }
 
 std::string imbalance_text(double load_factor, double left) {
@@ -275,15 +275,15 @@ std::string imbalance_text(double load_factor, double left) {
          " of the largest of them";
 }
 
-std::vector<double> contact_fractions(const Structure& structure, const ResolvedModel& model,
-                                      const Eigen::VectorXd& y) {
+std::vector<double> contact_fractions(const Structure& structure, const Eigen::VectorXd& y) {
+  const ResolvedModel& model = *structure.model;
   std::vector<double> out;
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
     const ResolvedFoundation& foundation = model.foundations[i];
     const double length =
         structure.axes[foundation.member]->length() * (foundation.range[1] - foundation.range[0]);
     double contact = 0.0;
-    for (const auto& interval : contact_intervals(structure, model, y, static_cast<int>(i)))
+    for (const auto& interval : contact_intervals(structure, y, static_cast<int>(i)))
       contact += interval[1] - interval[0];
     out.push_back(std::clamp(contact / length, 0.0, 1.0));
   }

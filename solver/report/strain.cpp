@@ -6,8 +6,8 @@
 
 namespace snapthrough {
 
-StrainGauge::StrainGauge(const Structure& structure, const ResolvedModel& model)
-    : structure_(structure), model_(model) {
+StrainGauge::StrainGauge(const Structure& structure) : structure_(structure), model_(*structure.model) {
+  const ResolvedModel& model = *structure.model;
   for (const ResolvedMember& member : model.members) sections_.push_back(&model.sections[member.section]);
 }
 
@@ -38,8 +38,7 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
   }
   for (std::size_t i = 0; i < model_.springs.size(); ++i) {
     if (!model_.springs[i].rod) continue;
-    const double strain =
-        reading_of(structure_, model_, i, y).displacement / structure_.spring_laws[i].length;
+    const double strain = reading_of(structure_, i, y).displacement / structure_.spring_laws[i].length;
     if (strain <= largest.strain) continue;  // a slack rod has a negative displacement
     largest = {strain, model_.springs[i].id, 0.0};
     raised = true;

@@ -33,8 +33,8 @@ struct LargestStrain {
 /// bending strain in the outer fibre, for any section depth.
 class StrainGauge {
  public:
-  /// @param structure, model kept by reference; must outlive this object
-  StrainGauge(const Structure& structure, const ResolvedModel& model);
+  /// @param structure kept by reference; must outlive this object
+  StrainGauge(const Structure& structure);
   /// Replaces `largest` if a strain at y exceeds it; returns true in that case.
   [[nodiscard]] bool raise(const Eigen::VectorXd& y, LargestStrain& largest) const;
   /// Whether y is outside the theory: a fibre strain reaches 1 (compression to zero length), or an element

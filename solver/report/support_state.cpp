@@ -37,11 +37,10 @@ struct SpringForce {
   double rounding = 0.0;  ///< rounding of the force
 };
 
-SpringForce force_of(const Structure& structure, const ResolvedModel& model, std::size_t index,
-                     const VectorXd& y) {
+SpringForce force_of(const Structure& structure, std::size_t index, const VectorXd& y) {
   const SpringLaw& spring = structure.spring_laws[index];
   SpringForce out;
-  SpringReading reading = reading_of(structure, model, index, y);
+  SpringReading reading = reading_of(structure, index, y);
   out.row = std::move(reading.row);
   out.displacement = reading.displacement;
   out.force = reading.force;
@@ -56,12 +55,13 @@ SpringForce force_of(const Structure& structure, const ResolvedModel& model, std
 
 /// Adds the springs to the state, without those that stand for rods and follow the others; returns their
 /// forces on the nodes, in the problem's rows.
-VectorXd add_springs(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
-                     const RigidMotions& rigid, State& state, std::vector<Bearing>& bearings) {
+VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidMotions& rigid, State& state,
+                     std::vector<Bearing>& bearings) {
+  const ResolvedModel& model = *structure.model;
   VectorXd on_nodes = VectorXd::Zero(3 * structure.nodes);
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const ResolvedSpring& spring = model.springs[i];
-    const SpringForce at = force_of(structure, model, i, y);
+    const SpringForce at = force_of(structure, i, y);
     const double sense = structure.spring_laws[i].sense;
     const double L = structure.scales.length;
     const double F = structure.scales.force;
@@ -79,7 +79,7 @@ VectorXd add_springs(const Structure& structure, const ResolvedModel& model, con
     if (!spring.at.is_on_member())
       for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
     else if (const SpringLaw& law = structure.spring_laws[i]; law.force_unknown >= 0)
-      on_nodes.segment<3>(3 * static_cast<Eigen::Index>(node_of_stop(structure, model, spring))) -=
+      on_nodes.segment<3>(3 * static_cast<Eigen::Index>(node_of_stop(structure, spring))) -=
           at.force * Eigen::Vector3d(law.row[0], law.row[1], law.row[2]);
   }
   return on_nodes;
@@ -98,8 +98,8 @@ VectorXd held_forces(const Structure& structure, ElementWork& elements, const Ve
 }
 
 /// Adds the supports to the state; returns their forces on the nodes, in the problem's rows.
-VectorXd add_supports(const Structure& structure, const ResolvedModel& model, const VectorXd& held,
-                      State& state) {
+VectorXd add_supports(const Structure& structure, const VectorXd& held, State& state) {
+  const ResolvedModel& model = *structure.model;
   const double F = structure.scales.force;
   VectorXd reactions = VectorXd::Zero(structure.size);
   for (const ResolvedSupport& support : model.supports) {
@@ -173,8 +173,9 @@ void add_layer(const Structure& structure, const FoundationLaw& foundation, cons
   }
 }
 
-void add_foundations(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
-                     const RigidMotions& rigid, std::vector<Bearing>& bearings) {
+void add_foundations(const Structure& structure, const VectorXd& y, const RigidMotions& rigid,
+                     std::vector<Bearing>& bearings) {
+  const ResolvedModel& model = *structure.model;
   const std::size_t first = bearings.size();
   bearings.resize(first + model.foundations.size());
   for (std::size_t i = 0; i < model.foundations.size(); ++i)
@@ -270,15 +271,15 @@ double relative_imbalance(const RigidMotions& rigid, double least, const VectorX
 
 }  // namespace
 
-double add_forces_on_structure(const Structure& structure, const ResolvedModel& model, const VectorXd& y,
-                               double lambda, State& state) {
-  const RigidMotions rigid(structure, model, y);
+double add_forces_on_structure(const Structure& structure, const VectorXd& y, double lambda, State& state) {
+  const ResolvedModel& model = *structure.model;
+  const RigidMotions rigid(structure, y);
   const std::unique_ptr<ElementWork> elements = structure.elements->make_work();
   std::vector<Bearing> bearings;  // resultants of springs, then foundations
-  const VectorXd springs = add_springs(structure, model, y, rigid, state, bearings);
+  const VectorXd springs = add_springs(structure, y, rigid, state, bearings);
   const VectorXd reactions =
-      add_supports(structure, model, held_forces(structure, *elements, y, lambda, springs), state);
-  add_foundations(structure, model, y, rigid, bearings);
+      add_supports(structure, held_forces(structure, *elements, y, lambda, springs), state);
+  add_foundations(structure, y, rigid, bearings);
   VectorXd loads = lambda * structure.proportional_load + structure.constant_load;
   elements->add_pressure_load(y, {lambda, 1.0}, structure.geometry == Geometry::linear, loads);
   FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {lambda, 1.0}, loads);

@@ -24,7 +24,7 @@ struct StateLimits {
 /// @param state with the model's foundations in their order
 /// @return what is left of the sum of all forces and moments on the structure, over the largest force and
 /// the largest moment that acts on it; zero where nothing acts
-double add_forces_on_structure(const Structure& structure, const ResolvedModel& model,
-                               const Eigen::VectorXd& y, double lambda, State& state);
+double add_forces_on_structure(const Structure& structure, const Eigen::VectorXd& y, double lambda,
+                               State& state);
 
 }  // namespace snapthrough

@@ -18,9 +18,8 @@ std::optional<double> along_path(const CriticalEvent& event, const BorderedPoint
 
 }  // namespace
 
-std::optional<KoiterCoefficients> koiter_coefficients(const ResolvedModel& model, const Structure& structure,
-                                                      const LocatedPoint& at, int points,
-                                                      int& factorisations) {
+std::optional<KoiterCoefficients> koiter_coefficients(const Structure& structure, const LocatedPoint& at,
+                                                      int points, int& factorisations) {
   const CriticalEvent& event = at.event;
   if (event.type != CriticalType::bifurcation || event.cause != CriticalCause::smooth ||
       event.multiplicity > 1 || structure.unsymmetric())
@@ -36,7 +35,7 @@ std::optional<KoiterCoefficients> koiter_coefficients(const ResolvedModel& model
   const auto path = along_path(event, point);
   const auto expansion = path ? koiter_expansion(point, *path) : std::nullopt;
   if (!expansion || (expansion->slope == 0.0 && !expansion->curvature)) return std::nullopt;
-  Mode mode = mode_displacements(structure, model, point.at().null.col(0), points);
+  Mode mode = mode_displacements(structure, point.at().null.col(0), points);
   const double scale = scale_to_largest(mode);
   const double load = point.at().lambda;
   KoiterCoefficients out;

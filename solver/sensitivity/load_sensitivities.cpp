@@ -40,11 +40,10 @@ struct DifferenceLimits {
 class VariationRate {
  public:
   /// @param here equations of the unchanged structure
-  VariationRate(const ResolvedModel& model, const Structure& structure, const CriticalEvent& event,
-                const CriticalSensitivity& point, const MatrixXd& here, const Variation& variation,
+  VariationRate(const Structure& structure, const CriticalEvent& event, const CriticalSensitivity& point,
+                const MatrixXd& here, const Variation& variation,
                 const std::function<ModeOffsets(const ResolvedModel&)>& offsets)
-      : model_(model),
-        structure_(structure),
+      : structure_(structure),
         event_(event),
         point_(point),
         here_(here),
@@ -68,7 +67,6 @@ class VariationRate {
   [[nodiscard]] double mismatch(const Sides& at) const;
   [[nodiscard]] bool has_kink(double lambda) const;
 
-  const ResolvedModel& model_;
   const Structure& structure_;
   const CriticalEvent& event_;
   const CriticalSensitivity& point_;
@@ -83,14 +81,14 @@ class VariationRate {
 std::optional<MatrixXd> VariationRate::equations_at(double value) const {
   const std::optional<Model> given = variation_.model_at(value);
   if (!given) return std::nullopt;
-  const ResolvedModel changed = resolve(*given);
+  ResolvedModel changed = resolve(*given);
   ModeOffsets modes;
   try {
     modes = offsets_(changed);
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
-  const Structure structure = with_changed_model(structure_, model_, changed, modes);
+  const Structure structure = with_changed_model(structure_, std::move(changed), modes);
   if (structure.size != structure_.size) return std::nullopt;
   StructuralProblem problem(structure);
   problem.set_holds(event_.point.holds);
@@ -189,8 +187,7 @@ std::vector<Sensitivity> none(const std::vector<Variation>& variations, NoDeriva
 
 }  // namespace
 
-std::vector<Sensitivity> load_sensitivities(const ResolvedModel& model,
-                                            const std::vector<Variation>& variations,
+std::vector<Sensitivity> load_sensitivities(const std::vector<Variation>& variations,
                                             const Structure& structure, const LocatedPoint& at,
                                             const std::function<ModeOffsets(const ResolvedModel&)>& offsets,
                                             int& factorisations) {
@@ -209,7 +206,7 @@ std::vector<Sensitivity> load_sensitivities(const ResolvedModel& model,
   std::vector<Sensitivity> out;
   out.reserve(variations.size());
   for (const Variation& variation : variations)
-    out.push_back(VariationRate(model, structure, at.event, sensitivity, here, variation, offsets)
+    out.push_back(VariationRate(structure, at.event, sensitivity, here, variation, offsets)
                       .find(point->solution.lambda));
   return out;
 }

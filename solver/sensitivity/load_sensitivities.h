@@ -20,12 +20,11 @@ namespace snapthrough {
 /// share unknowns, elements, scales and state. The step starts at 2.5e-4 of the variation's size and is
 /// shortened until halving it has no effect; two steps are extrapolated. Differences are one-sided if the
 /// value may change in one sense only.
-/// @param structure structure of `model` on which the point was found
+/// @param structure structure on which the point was found
 /// @param offsets mode imperfections of a changed model; may throw std::runtime_error when it lacks the modes
 /// @param factorisations incremented by the number of factorisations
 [[nodiscard]] std::vector<Sensitivity> load_sensitivities(
-    const ResolvedModel& model, const std::vector<Variation>& variations, const Structure& structure,
-    const LocatedPoint& at, const std::function<ModeOffsets(const ResolvedModel&)>& offsets,
-    int& factorisations);
+    const std::vector<Variation>& variations, const Structure& structure, const LocatedPoint& at,
+    const std::function<ModeOffsets(const ResolvedModel&)>& offsets, int& factorisations);
 
 }  // namespace snapthrough

@@ -71,12 +71,11 @@ MotionsAt motions_at(StructuralProblem& problem, const PathMetric& metric, const
 }
 
 /// Residual of the model with an offset at one point of a member, at a given state.
-VectorXd residual_with(const ResolvedModel& model, const Structure& structure,
-                       const ResolvedPointsImperfection& offset, const ModeOffsets& modes,
-                       const MotionsAt& at, const SharedHolds& holds) {
-  ResolvedModel changed = model;
+VectorXd residual_with(const Structure& structure, const ResolvedPointsImperfection& offset,
+                       const ModeOffsets& modes, const MotionsAt& at, const SharedHolds& holds) {
+  ResolvedModel changed = *structure.model;
   changed.imperfections.emplace_back(offset);
-  const Structure other = with_changed_model(structure, model, changed, modes);
+  const Structure other = with_changed_model(structure, std::move(changed), modes);
   StructuralProblem problem(other);
   problem.set_holds(holds);
   VectorXd out;
@@ -86,8 +85,9 @@ VectorXd residual_with(const ResolvedModel& model, const Structure& structure,
 
 }  // namespace
 
-OffsetWorks offset_works(const ResolvedModel& model, const Structure& structure, const LocatedPoint& at,
-                         const OffsetSpace& space, const ModeOffsets& modes, int& factorisations) {
+OffsetWorks offset_works(const Structure& structure, const LocatedPoint& at, const OffsetSpace& space,
+                         const ModeOffsets& modes, int& factorisations) {
+  const ResolvedModel& model = *structure.model;
   const SharedHolds& holds = at.event.point.holds;
   StructuralProblem problem(structure);
   problem.set_holds(holds);
@@ -101,8 +101,8 @@ OffsetWorks offset_works(const ResolvedModel& model, const Structure& structure,
     const auto residual = [&](double offset) {
       const VectorXd one = offset * VectorXd::Unit(space.size(), i);
       const MemberOffsets offsets = space.member_offsets(model, one)[member];
-      return residual_with(model, structure, {{offsets.member, offsets.offsets}, static_cast<int>(member)},
-                           modes, here, holds);
+      return residual_with(structure, {{offsets.member, offsets.offsets}, static_cast<int>(member)}, modes,
+                           here, holds);
     };
     const VectorXd change = (residual(step) - residual(-step)) / (2.0 * step);
     for (Index j = 0; j < here.motions.cols(); ++j)

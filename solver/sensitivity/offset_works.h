@@ -29,11 +29,11 @@ struct OffsetWorks {
 ///
 /// The derivative by an offset is a central difference of step eps^(1/3) of the member's length, at which its
 /// errors of truncation and of rounding are equal.
-/// @param structure structure of `model` on which the point was found
+/// @param structure structure on which the point was found
 /// @param modes offsets of the model's mode imperfections
 /// @param factorisations incremented by the number of factorisations
-[[nodiscard]] OffsetWorks offset_works(const ResolvedModel& model, const Structure& structure,
-                                       const LocatedPoint& at, const OffsetSpace& space,
-                                       const ModeOffsets& modes, int& factorisations);
+[[nodiscard]] OffsetWorks offset_works(const Structure& structure, const LocatedPoint& at,
+                                       const OffsetSpace& space, const ModeOffsets& modes,
+                                       int& factorisations);
 
 }  // namespace snapthrough

@@ -152,8 +152,8 @@ void Follower::add_followed(double value, double lambda) {
 /// Whether one-sided supports hold the loads at the start of the path of a value.
 bool Follower::is_held(double value) {
   const auto member = solver_->member_at(family_.coordinate_of(value));
-  return member &&
-         (are_held_alike(member->model, family_.reference().model) || loads_are_held(member->model));
+  return member && (are_held_alike(*member->structure.model, *family_.reference().structure.model) ||
+                    loads_are_held(*member->structure.model));
 }
 
 /// Traces the path of a value to its first loss of stability.

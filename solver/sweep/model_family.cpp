@@ -28,10 +28,10 @@ double ModelFamily::value_at(double t) const {
 
 std::shared_ptr<FamilyMember> ModelFamily::at(double t) const {
   ResolvedModel model = model_(value_at(t));
-  Structure structure = with_changed_model(reference_->structure, reference_->model, model,
-                                           mode_offsets(model, analysis_, reference_->structure.stop));
+  const ModeOffsets modes = mode_offsets(model, analysis_, reference_->structure.stop);
+  Structure structure = with_changed_model(reference_->structure, std::move(model), modes);
   if (structure.size != reference_->structure.size) return nullptr;
-  return std::make_shared<FamilyMember>(std::move(model), std::move(structure));
+  return std::make_shared<FamilyMember>(std::move(structure));
 }
 
 }  // namespace snapthrough

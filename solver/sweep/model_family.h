@@ -12,12 +12,11 @@
 
 namespace snapthrough {
 
-/// Model, structure and equations for one value of the parameter.
+/// Structure and equations for one value of the parameter.
 struct FamilyMember {
-  FamilyMember(ResolvedModel model_of_value, Structure structure_of_value)
-      : model(std::move(model_of_value)), structure(std::move(structure_of_value)), problem(structure) {}
+  explicit FamilyMember(Structure structure_of_value)
+      : structure(std::move(structure_of_value)), problem(structure) {}
 
-  ResolvedModel model;
   Structure structure;
   StructuralProblem problem;
 };

@@ -35,36 +35,34 @@ TracedPath::TracedPath(const Model& given, const Analysis& analysis, const std::
     : steps_(analysis.step) {
   ResolvedModel model = resolve(given);
   const ModeOffsets modes = mode_offsets(model, analysis);
-  Structure structure = like != nullptr ? with_changed_model(like->structure, like->model, model, modes)
+  Structure structure = like != nullptr ? with_changed_model(like->structure, model, modes)
                                         : make_structure(model, analysis.discretization, analysis.geometry,
                                                          modes, MeshUse::first);
   structure.free_motions = FreeMotions(model).of_nodes();
   structure.stop = stop;
-  set(std::move(model), std::move(structure));
+  set(std::move(structure));
 }
 
-void TracedPath::set(ResolvedModel model, Structure structure) {
-  member_ = std::make_shared<FamilyMember>(std::move(model), std::move(structure));
+void TracedPath::set(Structure structure) {
+  member_ = std::make_shared<FamilyMember>(std::move(structure));
   follower_ = std::make_unique<PathFollower>(member_->problem);
 }
 
 PathStart TracedPath::start(Result& result) {
-  return start_of_path(member_->model, member_->structure, member_->problem, follower_->solver(), 1.0, {},
-                       result);
+  return start_of_path(member_->structure, member_->problem, follower_->solver(), 1.0, {}, result);
 }
 
 TraceOutcome TracedPath::run(const TraceRules& rules) {
-  if (!loads_are_held(member_->model)) {
+  if (!loads_are_held(*member_->structure.model)) {
     failure_ = "not_held";
     return {};
   }
   Result result;
   auto first = start(result);
-  auto touching = with_least_piece(member_->model, member_->structure, member_->problem, follower_->norm(),
-                                   first, result);
+  auto touching = with_least_piece(member_->structure, member_->problem, follower_->norm(), first, result);
   if (touching) {
     touches_ = true;
-    set(ResolvedModel(member_->model), std::move(*touching));
+    set(std::move(*touching));
     first = start(result);
   }
   if (!first) {

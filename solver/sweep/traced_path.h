@@ -38,7 +38,7 @@ class TracedPath {
   [[nodiscard]] int factorizations() const { return follower_->statistics().factorizations; }
 
  private:
-  void set(ResolvedModel model, Structure structure);
+  void set(Structure structure);
   [[nodiscard]] PathStart start(Result& result);
 
   StepOptions steps_;

@@ -91,7 +91,7 @@ TEST(ExactColumn, HasTheLoadsOfElementsOnRandomColumns) {
     const bool unstable = result.summary.termination == "unstable_at_start";
     EXPECT_EQ(result.buckling->load_factors, unstable ? std::vector<double>() : loads) << "seed " << seed;
     const Structure first = make_structure(resolve(model), analysis.discretization, Geometry::nonlinear);
-    const BucklingLoads general = buckling_loads(resolve(model), analysis, first);
+    const BucklingLoads general = buckling_loads(analysis, first);
     EXPECT_EQ(general.buckling.negative_at_start > 0, unstable);
     if (loads.empty() && general.buckling.loads.empty()) continue;
     // forces that cancel leave rounding errors in the elements, and loads of the order of their inverse

@@ -19,7 +19,7 @@ double decay_under(double force, const Model& model) {
   const Structure structure = make_structure(resolve(model), testing::fixed_mesh(4, 3), Geometry::nonlinear);
   // the load of the model is one, and presses
   const Eigen::VectorXd y = -force * structure.scales.load * testing::linear_response(structure);
-  return bending_decays(structure, resolve(model), y).front();
+  return bending_decays(structure, y).front();
 }
 
 TEST(BendingDecays, AreThoseOfAPulledString) {

@@ -52,7 +52,7 @@ TEST(Transfer, KeepsEveryDisplacement) {
   const Eigen::VectorXd y = testing::linear_response(coarse);
   Mesh finer = *finer_mesh(coarse.mesh);
   finer.order = 5;
-  const Structure fine = on_mesh(coarse, resolve(model), finer);
+  const Structure fine = on_mesh(coarse, finer);
   const Eigen::VectorXd there = transfer(coarse, y, fine);
   for (double fraction = 0.013; fraction < 1.0; fraction += 0.031) {
     const MeshPlace a = place_of(coarse.mesh, 0, fraction);
@@ -68,8 +68,7 @@ TEST(Transfer, KeepsEveryDisplacement) {
 /// The first critical point of a structure's path on a coarse mesh, and what FineMesh needs to know of it.
 struct Coarse {
   explicit Coarse(const Model& drawn, const Discretization& mesh)
-      : model(resolve(drawn)),
-        structure(make_structure(model, mesh, Geometry::nonlinear)),
+      : structure(make_structure(resolve(drawn), mesh, Geometry::nonlinear)),
         problem(structure),
         follower(problem) {
     TraceRules rules;
@@ -84,10 +83,9 @@ struct Coarse {
     if (!outcome.critical.empty()) event = outcome.critical[0];
   }
   [[nodiscard]] FineMesh finer() const {
-    return {on_mesh(structure, model, *finer_mesh(structure.mesh)), model, follower, 1e-11};
+    return {on_mesh(structure, *finer_mesh(structure.mesh)), follower, 1e-11};
   }
 
-  ResolvedModel model;
   Structure structure;
   StructuralProblem problem;
   PathFollower follower;
@@ -151,7 +149,7 @@ TEST(BucklingLoads, AreRefinedUntilTheEstimateIsWithinTheAccuracy) {
     analysis.modes = 3;
     analysis.discretization.accuracy = accuracy;
     Structure first = make_structure(resolve(model), testing::fixed_mesh(2, 4), Geometry::nonlinear);
-    const BucklingLoads found = buckling_loads(resolve(model), analysis, first);
+    const BucklingLoads found = buckling_loads(analysis, first);
     ASSERT_EQ(found.buckling.loads.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
       const double n = static_cast<double>(i + 1);
