@@ -31,7 +31,7 @@ FrequencyProbe::FrequencyProbe(const Structure& structure, const Analysis& analy
 }
 
 std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, double lambda) {
-  if (structure_.one_sided && has_any(problem_.marks_at(y))) return std::nullopt;
+  if (structure_.one_sided && has_any(problem_.contact().marks_at(y))) return std::nullopt;
   NaturalMotions found = natural_motions(structure_, problem_, masses_, y, lambda, search_, columns_);
   search_.begin_with(found);
   if (!is_asked_alone_ && !(found.converged && found.complete)) return std::nullopt;

@@ -65,12 +65,12 @@ ContactShares shares_of(const Structure& structure, const StructuralProblem& pro
                   structure.scales.length;
     for (int e = structure.mesh.first[member]; e < structure.mesh.first[member + 1]; ++e)
       length.glued +=
-          length_of_element(structure, e) * structure.elements->frozen_share(contact, e, static_cast<int>(i));
+          length_of_element(structure, e) * structure.elements->contacts().share(contact, e, static_cast<int>(i));
   }
   const TouchingMarks all_springs{std::vector<char>(contact.contacts.size(), 0),
                                   std::vector<char>(contact.element_springs.size(), 1),
                                   std::vector<char>(contact.node_springs.size(), 1)};
-  for (const TouchingSupports::Spring& spring : problem.touching(all_springs, &contact).springs) {
+  for (const TouchingSupports::Spring& spring : problem.contact().touching(all_springs, &contact).springs) {
     const ResolvedSpring& law = laws.springs[static_cast<std::size_t>(spring.spring)];
     if (is_one_sided(law))
       out.springs[(law.rod ? "member " : "spring ") + law.id] = spring.touch == Touch::acts;

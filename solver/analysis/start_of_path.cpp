@@ -9,6 +9,7 @@
 #include "solver/analysis/vibration_rule.h"
 #include "solver/discrete/given_state.h"
 #include "solver/hooks.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/result_parts.h"
@@ -40,7 +41,7 @@ std::string nothing_found(const Structure& structure, const PathStart& start) {
   std::size_t node = 0;
   double largest = 0.0;
   for (int j = 0; j < structure.first_ground; ++j) {
-    const double size = motion.segment<2>(3 * j).lpNorm<Eigen::Infinity>();
+    const double size = DofMap::displacement(motion, j).lpNorm<Eigen::Infinity>();
     if (size <= largest) continue;
     largest = size;
     node = static_cast<std::size_t>(j);
@@ -72,8 +73,8 @@ class UnloadedPoint final : public PathObserver {
 /// ground that does not reach the structure leaves of its displacements is rounding.
 Eigen::VectorXd unmoved_if_it_holds(const Structure& structure, StructuralProblem& problem,
                                     const Eigen::VectorXd& y) {
-  const Eigen::Index first = 3 * static_cast<Eigen::Index>(structure.first_ground);
-  const Eigen::Index count = 3 * static_cast<Eigen::Index>(structure.first_stop_node) - first;
+  const Eigen::Index first = DofMap::first<Eigen::Index>(structure.first_ground);
+  const Eigen::Index count = DofMap::first<Eigen::Index>(structure.first_stop_node) - first;
   Eigen::VectorXd unmoved = Eigen::VectorXd::Zero(y.size());
   unmoved.segment(first, count) = y.segment(first, count);
   Eigen::VectorXd residual;
@@ -101,7 +102,7 @@ void hand_on_stability(const Structure& structure, StructuralProblem& problem, c
   const ResolvedModel& model = *structure.model;
   PathPoint& point = *start.point;
   point.negative = count_next_to(outcome.last.negative, {point.negative, 0.0, true});
-  const bool is_linear = !structure.one_sided || !has_any(problem.marks_at(point.y));
+  const bool is_linear = !structure.one_sided || !has_any(problem.contact().marks_at(point.y));
   if (!has_mass(model) || !is_linear || !FlutterSearch(structure).flutters_at(point)) return;
   start.grows_from = 1.0;
   for (const CriticalEvent& event : outcome.critical)

@@ -10,7 +10,7 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/numeric/rounding.h"
-#include "solver/resolve/member_loads.h"
+#include "solver/resolve/resolved_model.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -69,9 +69,17 @@ class LineReader {
   [[nodiscard]] bool add_support(const ResolvedSupport& support, int joint);
   [[nodiscard]] bool add_springs();
   [[nodiscard]] bool add_foundations();
-  [[nodiscard]] bool add_loads();
-  [[nodiscard]] bool add_point_load(const ResolvedPointLoad& load);
-  [[nodiscard]] bool add_strain(const ResolvedInitialStrain& strain);
+  [[nodiscard]] bool add_actions();
+  [[nodiscard]] bool add(const PointAction& load);
+  [[nodiscard]] bool add(const LineAction& load) const {
+    return std::ranges::all_of(load.pieces, [](const LinePiece& piece) {
+      return piece.from == Vec2{0.0, 0.0} && piece.to == Vec2{0.0, 0.0};
+    });
+  }
+  [[nodiscard]] bool add(const PressureAction& load) const {
+    return load.value == 0.0 && load.value_along.empty();
+  }
+  [[nodiscard]] bool add(const StrainAction& strain);
   [[nodiscard]] bool add_prestress();
   void add_forces_between(std::size_t first, std::size_t second, int pattern);
   [[nodiscard]] bool has_release(int member, bool at_end) const;
@@ -180,8 +188,8 @@ void LineReader::cut(Link& link) const {
     add(foundation.range[0]);
     add(foundation.range[1]);
   }
-  for (const ResolvedLoad& load : model_.loads)
-    if (const auto* point = std::get_if<ResolvedPointLoad>(&load); point && point->at.member == link.member)
+  for (const int action : model_.actions_on_member[static_cast<std::size_t>(link.member)])
+    if (const auto* point = std::get_if<PointAction>(&model_.actions[static_cast<std::size_t>(action)].what))
       add(point->at.fraction);
   std::sort(cuts.begin(), cuts.end());
   const auto same = [](double a, double b) { return b - a <= LineLimits::one_place; };
@@ -335,7 +343,7 @@ bool LineReader::add_foundations() {
   return true;
 }
 
-bool LineReader::add_point_load(const ResolvedPointLoad& load) {
+bool LineReader::add(const PointAction& load) {
   if (load.moment != 0.0 || !is_dead(load)) return false;
   if (load.force == Vec2{0.0, 0.0}) return true;
   if (way_of(load.force) != Way::along) return false;
@@ -344,7 +352,7 @@ bool LineReader::add_point_load(const ResolvedPointLoad& load) {
   return true;
 }
 
-bool LineReader::add_strain(const ResolvedInitialStrain& strain) {
+bool LineReader::add(const StrainAction& strain) {
   if (strain.curvature != 0.0 || !strain.axial_along.empty() || !strain.curvature_along.empty()) return false;
   const Link& link = link_of(strain.member);
   for (std::size_t i = 0; i + 1 < link.cuts.size(); ++i)
@@ -352,23 +360,10 @@ bool LineReader::add_strain(const ResolvedInitialStrain& strain) {
   return true;
 }
 
-bool LineReader::add_loads() {
-  for (const ResolvedLoad& load : model_.loads) {
-    if (const auto* point = std::get_if<ResolvedPointLoad>(&load)) {
-      if (!add_point_load(*point)) return false;
-    } else if (const auto* distributed = std::get_if<ResolvedDistributedLoad>(&load)) {
-      if (distributed->force != Vec2{0.0, 0.0} || !distributed->force_along.empty()) return false;
-    } else if (const auto* pressure = std::get_if<ResolvedPressureLoad>(&load)) {
-      if (pressure->value != 0.0 || !pressure->value_along.empty()) return false;
-    } else if (const auto* strain = std::get_if<ResolvedInitialStrain>(&load)) {
-      if (!add_strain(*strain)) return false;
-    } else if (const auto* temperature = std::get_if<ResolvedTemperatureLoad>(&load)) {
-      if (!add_strain(strain_of(model_, *temperature))) return false;
-    } else if (std::get<SelfWeight>(load).gravity != Vec2{0.0, 0.0}) {
-      return false;
-    }
-  }
-  return true;
+bool LineReader::add_actions() {
+  return std::ranges::all_of(model_.actions, [this](const Action& action) {
+    return std::visit([this](const auto& one) { return add(one); }, action.what);
+  });
 }
 
 /// Axial forces between two fixed joints, from the compatibility of the spans' lengths.
@@ -422,7 +417,7 @@ bool LineReader::read() {
   line_.stiffness = 0.0;
   if (!order_members()) return false;
   add_spans();
-  return add_supports() && add_springs() && add_foundations() && add_loads() && add_prestress();
+  return add_supports() && add_springs() && add_foundations() && add_actions() && add_prestress();
 }
 
 }  // namespace

@@ -135,9 +135,9 @@ void CapacityBalance::add_loads() {
   proportional_ = constant_;
   double constant = 0.0;
   double proportional = 0.0;
-  for (const ResolvedLoad& load : motions_.joined_model().loads) {
-    const bool is_constant = pattern_of(load) == Pattern::constant;
-    const LoadWork work = work_of(motions_.parts(), load);
+  for (const Action& action : motions_.joined_model().actions) {
+    const bool is_constant = action.pattern() == Pattern::constant;
+    const LoadWork work = work_of(motions_.parts(), action);
     (is_constant ? constant_ : proportional_) += on_motions(work.row);
     (is_constant ? constant : proportional) += work.size;
   }

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
@@ -27,8 +28,8 @@ class ConnectedUnknowns {
     return up;
   }
   [[nodiscard]] bool is_held(int unknown) const {
-    return unknown < 3 * structure_.nodes &&
-           std::ranges::all_of(structure_.supports[static_cast<std::size_t>(unknown / 3)].fixed,
+    return unknown < DofMap::count(structure_.nodes) &&
+           std::ranges::all_of(structure_.supports[static_cast<std::size_t>(DofMap::node(unknown))].fixed,
                                [](bool fixed) { return fixed; });
   }
 
@@ -46,7 +47,7 @@ ConnectedUnknowns::ConnectedUnknowns(const Structure& structure)
   std::iota(above_.begin(), above_.end(), 0);
   const int p = structure.mesh.order;
   for (const ElementDofs& dofs : structure.dofs) {
-    for (int i = 1; i < 3 * p; ++i) connect(dofs.v, dofs.v + i);
+    for (int i = 1; i < DofMap::count(p); ++i) connect(dofs.v, dofs.v + i);
     for (int c = 0; c < 3; ++c) {
       connect(dofs.v, dofs.a[static_cast<std::size_t>(c)]);
       connect(dofs.v, dofs.b[static_cast<std::size_t>(c)]);
@@ -54,7 +55,7 @@ ConnectedUnknowns::ConnectedUnknowns(const Structure& structure)
   }
   for (const NodeSpring& spring : structure.node_springs)
     for (int c = 0; c < 3 && spring.to >= 0 && spring.to < structure.first_ground; ++c)
-      connect(3 * spring.node + c, 3 * spring.to + c);
+      connect(DofMap::first(spring.node) + c, DofMap::first(spring.to) + c);
   for (const JointSpring& joint : structure.joints) connect(joint.node_rotation, joint.end_rotation);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/discrete/mechanism.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/dense.h"
 #include "solver/numeric/rounding.h"
 #include "solver/support/joined_supports.h"
@@ -26,7 +27,7 @@ FreeMotions::FreeMotions(const ResolvedModel& model, HeldBy held_by) {
 
 MatrixXd FreeMotions::of_nodes() const {
   if (empty()) return {};
-  MatrixXd nodes(3 * static_cast<Index>(joined_model().nodes.size()), motions_.cols());
+  MatrixXd nodes(DofMap::count(static_cast<Index>(joined_model().nodes.size())), motions_.cols());
   for (Index i = 0; i < motions_.cols(); ++i) nodes.col(i) = mechanism_->of_nodes(motions_.col(i));
   const MatrixXd motions = orthonormal_columns(nodes);
   // remove rounding in rows of fixed nodes, which would couple independent parts

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "solver/geometry/cubic_spline.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/gauss_rule.h"
 
 namespace snapthrough {
@@ -58,7 +59,7 @@ void set_element(const Structure& structure, const MemberSplines& member, int el
 /// Lets the stops act that the members reach; equations linear in their forces then give these.
 void set_stops(const Structure& structure, Eigen::VectorXd& y) {
   const ResolvedModel& model = *structure.model;
-  const double largest = y.head(3 * static_cast<Eigen::Index>(structure.nodes)).lpNorm<Eigen::Infinity>();
+  const double largest = y.head(DofMap::count(structure.nodes)).lpNorm<Eigen::Infinity>();
   for (std::size_t i = 0; structure.stops > 0 && i < model.springs.size(); ++i) {
     const SpringLaw& law = structure.spring_laws[i];
     if (law.force_unknown >= 0 && reading_of(structure, i, y).depth > -GivenStateLimits::reached * largest)
@@ -83,8 +84,8 @@ Eigen::VectorXd unknowns_of(const Structure& structure, const StartState& state)
     const MemberShape& shape = shape_of(model.springs[i].id);
     const NodeSpring rod = rod_of(structure, i);
     for (const auto& [node, at] : {std::pair{rod.node, std::size_t{0}}, {rod.to, shape.s.size() - 1}}) {
-      y[3 * node] = shape.u[at] / structure.scales.length;
-      y[3 * node + 1] = shape.v[at] / structure.scales.length;
+      DofMap::displacement(y, node) << shape.u[at] / structure.scales.length,
+          shape.v[at] / structure.scales.length;
     }
   }
   std::vector<MemberSplines> members;

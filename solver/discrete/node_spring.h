@@ -6,6 +6,7 @@
 #include <array>
 
 #include "solver/element/element_set.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -50,14 +51,14 @@ struct NodeSpring {
   [[nodiscard]] bool is_stop() const { return force_unknown >= 0; }
   /// Displacement r in a vector of unknowns.
   [[nodiscard]] Eigen::Vector3d relative(const Eigen::Ref<const Eigen::VectorXd>& y) const {
-    Eigen::Vector3d r = y.segment<3>(3 * static_cast<Eigen::Index>(node));
-    if (to >= 0) r -= y.segment<3>(3 * static_cast<Eigen::Index>(to));
+    Eigen::Vector3d r = DofMap::at(y, node);
+    if (to >= 0) r -= DofMap::at(y, to);
     return r;
   }
   /// Adds a force on `node`, and its opposite on `to`, to nodal forces.
   void add(const Eigen::Vector3d& force, Eigen::Ref<Eigen::VectorXd> forces) const {
-    forces.segment<3>(3 * static_cast<Eigen::Index>(node)) += force;
-    if (to >= 0) forces.segment<3>(3 * static_cast<Eigen::Index>(to)) -= force;
+    DofMap::at(forces, node) += force;
+    if (to >= 0) DofMap::at(forces, to) -= force;
   }
   [[nodiscard]] Eigen::Vector3d direction() const { return {row[0], row[1], row[2]}; }
   /// Displacement w at the unknowns y, for small displacements, without the force of a stop.

@@ -6,20 +6,18 @@
 #include <variant>
 
 #include "solver/numeric/gauss_rule.h"
-#include "solver/resolve/member_loads.h"
 
 namespace snapthrough {
 namespace {
 
 /// Varying pressure as a load across the undeformed axis.
-ResolvedDistributedLoad across(const ResolvedPressureLoad& load) {
-  ResolvedDistributedLoad out;
-  out.member = load.member;
-  out.axes = LoadAxes::member;
+LineAction across(const PressureAction& load) {
   const double sense = load.side == Side::left ? -1.0 : 1.0;
+  Along<std::array<double, 2>> forces;
   for (const auto& [fraction, value] : load.value_along)
-    out.force_along.emplace_back(fraction, std::array{0.0, sense * value});
-  return out;
+    forces.emplace_back(fraction, std::array{0.0, sense * value});
+  return {load.member, LoadMeasure::length, LoadAxes::member, load.pattern,
+          pieces_of({0.0, 1.0}, {0.0, 0.0}, forces)};
 }
 
 /// Sums the work of one load.
@@ -27,16 +25,10 @@ class Summing {
  public:
   explicit Summing(const RigidParts& parts) : parts_(parts) {}
 
-  void add(const ResolvedPointLoad& load);
-  void add(const ResolvedDistributedLoad& load) { add(line_load(load)); }
-  void add(const LineLoad& load);
-  void add(const ResolvedPressureLoad& load);
-  void add(const ResolvedInitialStrain&) {}
-  void add(const SelfWeight& load) {
-    for (std::size_t m = 0; m < parts_.model().members.size(); ++m)
-      add(weight_of(parts_.model(), static_cast<int>(m), load));
-  }
-  void add(const ResolvedTemperatureLoad&) {}
+  void add(const PointAction& load);
+  void add(const LineAction& load);
+  void add(const PressureAction& load);
+  void add(const StrainAction&) {}
   LoadWork work;
 
  private:
@@ -52,7 +44,7 @@ class Summing {
   const RigidParts& parts_;
 };
 
-void Summing::add(const ResolvedPointLoad& load) {
+void Summing::add(const PointAction& load) {
   const double moment = load.moment / parts_.length();
   if (!load.at.is_on_member()) {
     const int node = load.at.node;
@@ -67,7 +59,7 @@ void Summing::add(const ResolvedPointLoad& load) {
   add(parts_.rotation(member), moment);
 }
 
-void Summing::add(const LineLoad& load) {
+void Summing::add(const LineAction& load) {
   const int member = load.member;
   const AxisCurve& axis = *parts_.axes()[static_cast<std::size_t>(member)];
   const bool is_linear = std::all_of(load.pieces.begin(), load.pieces.end(),
@@ -92,7 +84,7 @@ void Summing::add(const LineLoad& load) {
 /// Replaces a constant pressure by pressure on the chord: with the right normal n = (t_y, -t_x), int n ds is
 /// the chord turned by -90 degrees, and the moment about the start is int (x - x_a) x n ds = -|x_b - x_a|^2
 /// / 2.
-void Summing::add(const ResolvedPressureLoad& load) {
+void Summing::add(const PressureAction& load) {
   if (!load.value_along.empty()) {
     add(across(load));
     return;
@@ -106,21 +98,17 @@ void Summing::add(const ResolvedPressureLoad& load) {
 
 }  // namespace
 
-Pattern pattern_of(const ResolvedLoad& load) {
-  return std::visit([](const auto& l) { return l.pattern; }, load);
-}
-
-LoadWork work_of(const RigidParts& parts, const ResolvedLoad& load) {
+LoadWork work_of(const RigidParts& parts, const Action& action) {
   Summing sum(parts);
-  std::visit([&sum](const auto& l) { sum.add(l); }, load);
+  std::visit([&sum](const auto& one) { sum.add(one); }, action.what);
   return std::move(sum.work);
 }
 
 RigidLoads::RigidLoads(const RigidParts& parts, Pattern pattern)
     : forces_(Eigen::VectorXd::Zero(parts.unknowns())) {
-  for (const ResolvedLoad& load : parts.model().loads) {
-    if (pattern_of(load) != pattern) continue;
-    const LoadWork work = work_of(parts, load);
+  for (const Action& action : parts.model().actions) {
+    if (action.pattern() != pattern) continue;
+    const LoadWork work = work_of(parts, action);
     size_ += work.size;
     for (const auto& [unknown, force] : work.row) forces_[unknown] += force;
   }

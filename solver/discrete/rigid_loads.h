@@ -9,18 +9,15 @@
 
 namespace snapthrough {
 
-/// Pattern of a load.
-[[nodiscard]] Pattern pattern_of(const ResolvedLoad& load);
-
-/// Work of a load as a linear functional of the rigid parts' unknowns, on the undeformed geometry.
+/// Work of an action as a linear functional of the rigid parts' unknowns, on the undeformed geometry.
 struct LoadWork {
-  /// Work of the load, in the model's unit of force; an unknown may occur several times.
+  /// Work of the action, in the model's unit of force; an unknown may occur several times.
   RigidParts::Row row;
   double size = 0.0;  ///< sum of the magnitudes of its forces, and of its moment over the unit of length
 };
 
-/// @brief Work of one load at its full size. Initial strains do no work.
-[[nodiscard]] LoadWork work_of(const RigidParts& parts, const ResolvedLoad& load);
+/// @brief Work of one action at its full size. Initial strains do no work.
+[[nodiscard]] LoadWork work_of(const RigidParts& parts, const Action& action);
 
 /// @brief Forces of all loads of one pattern on the rigid parts' unknowns. Prescribed displacements count as
 /// fixed and exert none.

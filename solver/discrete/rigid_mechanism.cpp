@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/discrete/rigid_loads.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/null_space.h"
 #include "solver/numeric/rounding.h"
@@ -148,9 +149,9 @@ Eigen::VectorXd RigidMechanism::of_nodes(const Eigen::VectorXd& motion) const {
     return sum;
   };
   const auto nodes = static_cast<int>(parts_.model().nodes.size());
-  Eigen::VectorXd out(3 * nodes);
+  Eigen::VectorXd out(DofMap::count(nodes));
   for (int j = 0; j < nodes; ++j)
-    out.segment<3>(3 * j) << value(parts_.displacement(j, {1.0, 0.0})),
+    DofMap::at(out, j) << value(parts_.displacement(j, {1.0, 0.0})),
         value(parts_.displacement(j, {0.0, 1.0})), value(parts_.node_rotation(j));
   return out;
 }
@@ -158,9 +159,10 @@ Eigen::VectorXd RigidMechanism::of_nodes(const Eigen::VectorXd& motion) const {
 std::size_t RigidMechanism::node_of(const Eigen::VectorXd& motion) const {
   const Eigen::VectorXd moved = of_nodes(motion);
   Eigen::Index node = 0;
-  for (Eigen::Index j = 1; 3 * j < moved.size(); ++j)
-    if (moved.segment<3>(3 * j).lpNorm<Eigen::Infinity>() >
-        Rounding::first_of_equal * moved.segment<3>(3 * node).lpNorm<Eigen::Infinity>())
+  const auto nodes = static_cast<Eigen::Index>(parts_.model().nodes.size());
+  for (Eigen::Index j = 1; j < nodes; ++j)
+    if (DofMap::at(moved, j).lpNorm<Eigen::Infinity>() >
+        Rounding::first_of_equal * DofMap::at(moved, node).lpNorm<Eigen::Infinity>())
       node = j;
   return static_cast<std::size_t>(node);
 }

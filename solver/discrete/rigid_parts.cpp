@@ -1,5 +1,6 @@
 #include "solver/discrete/rigid_parts.h"
 #include "solver/geometry/axes.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/support/law.h"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ void RigidParts::find_bodies() {
     int& body = body_of_root[root_of(parent, static_cast<int>(n))];
     if (body < 0) {
       body = static_cast<int>(bodies_.size());
-      bodies_.push_back({3 * body, {}, 0.0});
+      bodies_.push_back({DofMap::first(body), {}, 0.0});
     }
     turns_with_[n] = body;
   }
@@ -94,7 +95,7 @@ void RigidParts::number_nodes() {
   for (std::size_t m = 0; m < ends_.size(); ++m)
     for (const int node : ends_[m])
       if (moves_with_[node] < 0) moves_with_[node] = body_of_member_[m];
-  unknowns_ = 3 * static_cast<int>(bodies_.size());
+  unknowns_ = DofMap::count(static_cast<int>(bodies_.size()));
   first_of_node_.assign(nodes_.size(), -1);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (moves_with_[n] >= 0) continue;

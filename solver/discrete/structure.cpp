@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/max_order.h"
 
 namespace snapthrough {
@@ -67,7 +68,7 @@ SparseRow displacement_row(const Structure& structure, const ResolvedLocation& a
   };
   if (!at.is_on_member()) {
     const int node = at.node;
-    for (int c = 0; c < 3; ++c) add(3 * node + c, row[c]);
+    for (int c = 0; c < 3; ++c) add(DofMap::first(node) + c, row[c]);
     return out;
   }
   const int member = at.member;
@@ -111,8 +112,8 @@ std::vector<MonitorRow> monitor_rows(const Structure& structure) {
 std::vector<FollowerForce> follower_forces_of(const Structure& structure) {
   const ResolvedModel& model = *structure.model;
   std::vector<FollowerForce> out;
-  for (const ResolvedLoad& load : model.loads) {
-    const auto* point = std::get_if<ResolvedPointLoad>(&load);
+  for (const Action& action : model.actions) {
+    const auto* point = std::get_if<PointAction>(&action.what);
     if (point == nullptr || is_dead(*point) || structure.geometry == Geometry::linear) continue;
     FollowerForce& force = out.emplace_back();
     force.fixed_line = point->fixed_line;

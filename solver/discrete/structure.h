@@ -17,6 +17,7 @@
 #include "solver/element/element_set.h"
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/mesh/mesh.h"
 #include "solver/model/analysis.h"
 #include "solver/model/scales.h"
@@ -108,7 +109,7 @@ struct Structure {
   int releases = 0;
   int stops = 0;  ///< number of unknown forces of stops; they follow the released rotations
   /// Number of unknowns before those of the first element.
-  [[nodiscard]] int before_elements() const { return 3 * nodes + releases + stops; }
+  [[nodiscard]] int before_elements() const { return DofMap::count(nodes) + releases + stops; }
   std::unique_ptr<const ElementSet> elements;
   std::vector<ElementDofs> dofs;      ///< one per element
   std::vector<NodeSupport> supports;  ///< one per node, those of the ground included

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "solver/discrete/stops.h"
+#include "solver/mesh/dof_map.h"
 
 namespace snapthrough {
 namespace {
@@ -60,11 +61,10 @@ void set_stop(const Structure& structure, const ResolvedSpring& spring, SpringLa
 void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<ResolvedFoundation>& foundations,
               const Structure& structure, std::vector<SpringLaw>& spring_laws,
               std::vector<FoundationLaw>& foundation_laws) {
-  int ground = 3 * structure.first_ground;
+  int ground = structure.first_ground;
   const auto ground_under = [&ground](const auto& support) {
     if (!support.displacement) return -1;
-    ground += 3;
-    return ground - 3;
+    return DofMap::first(ground++);
   };
   for (const ResolvedSpring& spring : springs) {
     SpringLaw& law = spring_laws.emplace_back(law_of(spring, structure.scales));

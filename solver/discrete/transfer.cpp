@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/max_order.h"
 
@@ -59,7 +60,7 @@ void transfer_end(const Structure& from, const Block& y, const Structure& to, in
   CollocationRule::of(old_p).integrals_at(end.xi, std::span(a).first(old_p));
   const auto weights = std::span<const double>(a).first(old_p);
   const double length = length_of_element(from, end.element);
-  const bool inside = dofs.b[0] >= 3 * to.first_stop_node;
+  const bool inside = dofs.b[0] >= DofMap::first(to.first_stop_node);
   for (Eigen::Index j = 0; j < y.cols(); ++j)
     for (int c = 0; c < 3; ++c) {
       // the multiplier enters the equations linearly, so that any value is a valid starting point
@@ -73,9 +74,9 @@ void transfer_end(const Structure& from, const Block& y, const Structure& to, in
 
 Eigen::MatrixXd transfer(const Structure& from, const Block& y, const Structure& to) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(to.size, y.cols());
-  const Eigen::Index shared = 3 * static_cast<Eigen::Index>(from.first_stop_node);
+  const Eigen::Index shared = DofMap::first<Eigen::Index>(from.first_stop_node);
   out.topRows(shared) = y.topRows(shared);
-  out.middleRows(3 * to.nodes, to.releases) = y.middleRows(3 * from.nodes, from.releases);
+  out.middleRows(DofMap::count(to.nodes), to.releases) = y.middleRows(DofMap::count(from.nodes), from.releases);
   for (std::size_t i = 0; to.stops > 0 && i < to.spring_laws.size(); ++i)
     if (const int old = from.spring_laws[i].force_unknown; old >= 0 && to.spring_laws[i].force_unknown >= 0)
       out.row(to.spring_laws[i].force_unknown) = y.row(old);

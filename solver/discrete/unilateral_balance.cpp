@@ -155,11 +155,11 @@ void UnilateralBalance::add_loads() {
     const VectorXd weights = seen.rowwise().norm();
     VectorXd constant = VectorXd::Zero(unknowns);
     VectorXd proportional = VectorXd::Zero(unknowns);
-    for (const ResolvedLoad& load : motions_.joined_model().loads) {
-      const bool is_constant = pattern_of(load) == Pattern::constant;
+    for (const Action& action : motions_.joined_model().actions) {
+      const bool is_constant = action.pattern() == Pattern::constant;
       VectorXd& forces = is_constant ? constant : proportional;
       double& size = is_constant ? group.constant.size : group.proportional.size;
-      for (const auto& [unknown, force] : work_of(motions_.parts(), load).row) {
+      for (const auto& [unknown, force] : work_of(motions_.parts(), action).row) {
         forces[unknown] += force;
         size += std::abs(force) * weights[unknown];
       }

@@ -14,6 +14,7 @@
 
 #include "solver/element/element_set.h"
 #include "solver/element/shear_layer.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/rounding.h"
 
 namespace snapthrough {
@@ -21,7 +22,7 @@ namespace snapthrough {
 /// Geometry, sections and supports of elements of order P.
 template <int P>
 struct ElementData {
-  static constexpr int kStrains = 3 * P;
+  static constexpr int kStrains = DofMap::count(P);
   using Gauss = std::array<double, P>;
 
   struct Shape {
@@ -57,7 +58,8 @@ struct ElementData {
     Gauss dx, dy;
   };
 
-  ElementData();
+  /// @param supports kept by reference; must outlive this object
+  explicit ElementData(const ElementContacts& supports);
   [[nodiscard]] ContactDisplacement displacement_of(const FoundationContact& contact, const Shape& shape,
                                                     const ElementDofs& at, const double* y) const;
   [[nodiscard]] double value(const Functional& f, const ElementDofs& at, const double* y) const;
@@ -69,27 +71,6 @@ struct ElementData {
   /// Functional of the penetration along d, with zero stiffness and gap. @param integrals the A_r there
   [[nodiscard]] static Functional penetration(std::array<double, 2> d, double h,
                                               std::span<const double> integrals);
-  /// Parts of the element on which a contact without shear layer acts at displacements u; `out` is
-  /// overwritten.
-  void acting_parts(std::size_t contact, const ContactDisplacement& u, std::vector<ElementPart>& out) const;
-
-  /// Contacts of one one-sided foundation with a shear layer, ascending.
-  struct Layer {
-    int foundation = 0;
-    std::vector<std::size_t> contacts;
-    std::vector<int> elements;
-  };
-  /// Enters the next contact, on an element, in the lists of layers.
-  void add_to_layer(const FoundationContact& contact, int element);
-  /// Displacements under a layer at the unknowns y.
-  [[nodiscard]] std::vector<LayerCell> cells_of(const Layer& layer, const double* y) const;
-  /// Changes of the penetrations under a layer along a direction.
-  [[nodiscard]] std::vector<LayerCell> rates_of(const Layer& layer, const double* along) const;
-  /// Parts on which the contacts of a layer act at displacements of its cells.
-  [[nodiscard]] LayerParts acting_parts(const Layer& layer, const std::vector<LayerCell>& cells) const;
-  /// Parts on which contacts act at y: one list for each contact, empty without a shear layer; no lists in a
-  /// mesh without layers.
-  [[nodiscard]] LayerParts parts_on_layers(const double* y) const;
   /// Functional of the derivative of the penetration by xi, with the stiffness of the shear layer.
   [[nodiscard]] Functional slope_functional(const FoundationContact& contact, double h, double xi) const;
   /// Whether a spring acts at the unknowns y.
@@ -107,11 +88,7 @@ struct ElementData {
   int stiff = 0;         ///< number of unshearable elements
   int shearable = 0;     ///< number of shearable elements
   std::vector<Functional> springs;
-  std::vector<FoundationContact> contacts;
-  std::vector<Touch> contact_touch;
-  std::vector<Layer> layers;
-  /// For each contact the number of its layer, or -1, and its place in it.
-  std::vector<std::pair<int, std::size_t>> layer_of_contact;
+  const ElementContacts& contacts;
   /// Functionals at the Gauss points of each contact's whole range.
   std::vector<std::vector<Functional>> whole_contacts;
 };
@@ -119,7 +96,7 @@ struct ElementData {
 template <int P>
 class ElementSetOf final : public ElementSet {
  public:
-  [[nodiscard]] int size() const override { return static_cast<int>(data_.shapes.size()); }
+  ElementSetOf() : ElementSet(P), data_(contacts_) {}
   void reserve(int elements) override {
     data_.shapes.reserve(elements);
     data_.dofs.reserve(elements);
@@ -127,40 +104,21 @@ class ElementSetOf final : public ElementSet {
   void add(const ElementShape& shape, const ElementDofs& dofs) override;
   void add_like(const ElementSet& other, int element, const ElementDofs& dofs) override;
   void add_spring(const SupportSpring& support) override;
-  void add_contact(int element, FoundationContact contact, Touch touch) override;
+  void add_foundation(int element, FoundationContact contact, Touch touch) override;
   void set_pressure(int element, const LinePressure& proportional, const LinePressure& constant) override;
   [[nodiscard]] std::unique_ptr<ElementWork> make_work() const override;
-  void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const override;
-  [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
-                                         const Eigen::VectorXd& rate) const override;
-  [[nodiscard]] double missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const override;
-  void freeze_zones(const MovingZones& zones, const Eigen::VectorXd& y, FrozenContact& out) const override;
-  void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
-                     TouchingMarks& out) const override;
-  [[nodiscard]] std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
-                                                             const FrozenContact* frozen) const override;
-  void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                              std::vector<double>& out) const override;
-  void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode, std::span<const char> springs,
-                    FrozenContact& out) const override;
-  [[nodiscard]] std::vector<TouchingContact> touching_contacts(const TouchingMarks& marks,
-                                                               const FrozenContact* frozen) const override;
-  [[nodiscard]] double frozen_share(const FrozenContact& frozen, int element, int foundation) const override;
 
  private:
   void append(typename ElementData<P>::Shape shape, const ElementDofs& dofs);
-  void add_moving_layers(const Eigen::VectorXd& y, const Eigen::VectorXd& rate, MovingZones& out) const;
-  void freeze_layers(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const;
-  void unmark_pressed_layers(const Eigen::VectorXd& y, const TouchingDistance& near,
-                             TouchingMarks& out) const;
-  void set_touching_layers(const TouchingMarks& marks, const Eigen::VectorXd& mode, FrozenContact& out) const;
 
   ElementData<P> data_;
 };
 
 template <int P>
-ElementData<P>::ElementData()
-    : rule(&CollocationRule::of(P)), contact_quadrature(FoundationContact::quadrature(P)) {
+ElementData<P>::ElementData(const ElementContacts& supports)
+    : rule(&CollocationRule::of(P)),
+      contact_quadrature(FoundationContact::quadrature(P)),
+      contacts(supports) {
   for (int q = 0; q < P; ++q) {
     b[q] = rule->weight(q);
     for (int r = 0; r < P; ++r) a[q][r] = rule->integral(q, r);
@@ -186,17 +144,6 @@ double ElementData<P>::value(const Functional& f, const ElementDofs& at, const d
   for (int c = 0; c < 3; ++c)
     for (int q = 0; q < P; ++q) w += f.v[c][q] * v[c * P + q];
   return w - f.ground.along(f.a, y);
-}
-
-template <int P>
-void ElementData<P>::acting_parts(std::size_t contact, const ContactDisplacement& u,
-                                  std::vector<ElementPart>& out) const {
-  const FoundationContact& part = contacts[contact];
-  const Touch touch = contact_touch[contact];
-  if (touch != Touch::none && part.is_near(u.start, u.dx, u.dy, Rounding::touching))
-    out.assign(touch == Touch::acts ? 1 : 0, {part.range()[0], part.range()[1]});
-  else
-    part.contact_intervals(u.start, u.dx, u.dy, out);
 }
 
 template <int P>
@@ -258,6 +205,22 @@ auto ElementData<P>::penetration(std::array<double, 2> d, double h, std::span<co
 }
 
 template <int P>
+auto ElementData<P>::slope_functional(const FoundationContact& contact, double h, double xi) const
+    -> Functional {
+  const auto d = contact.direction_at(xi);
+  const auto rate = contact.direction_rate(xi);
+  Gauss integrals;
+  Gauss values;
+  rule->integrals_at(xi, integrals);
+  rule->values_at(xi, values);
+  Functional f = penetration(rate, h, integrals);
+  for (int c = 0; c < 2; ++c)
+    for (int q = 0; q < P; ++q) f.v[c][q] += h * values[q] * d[c];
+  f.law.stiffness = contact.shear() / h;
+  return f;
+}
+
+template <int P>
 void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
   typename ElementData<P>::Shape shape;
   shape.h = in.length;
@@ -287,10 +250,11 @@ void ElementSetOf<P>::add_like(const ElementSet& other, int element, const Eleme
 template <int P>
 void ElementSetOf<P>::append(typename ElementData<P>::Shape shape, const ElementDofs& dofs) {
   shape.first_spring = static_cast<int>(data_.springs.size());
-  shape.first_contact = static_cast<int>(data_.contacts.size());
+  shape.first_contact = static_cast<int>(contacts_.contacts().size());
   shape.spring_count = shape.contact_count = 0;
   shape.pressure = shape.constant_pressure = LinePressure{};
   shape.factor = shape.shearable ? data_.shearable++ : data_.stiff++;
+  contacts_.add_element(shape.h, dofs);
   data_.shapes.push_back(shape);
   data_.dofs.push_back(dofs);
 }
@@ -307,14 +271,14 @@ void ElementSetOf<P>::add_spring(const SupportSpring& support) {
   for (int q = 0; q < P; ++q)
     for (int c = 0; c < 3; ++c) f.v[c][q] = support.v[q][c];
   data_.springs.push_back(f);
+  contacts_.add_spring(support);
   auto& shape = data_.shapes[support.element];
   ++shape.spring_count;
   shape.curved = shape.curved || f.law.curve != nullptr;
 }
 
 template <int P>
-void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch touch) {
-  data_.contact_touch.push_back(touch);
+void ElementSetOf<P>::add_foundation(int element, FoundationContact contact, Touch touch) {
   auto& whole = data_.whole_contacts.emplace_back();
   whole.reserve(data_.contact_quadrature.points.size());
   for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
@@ -328,8 +292,7 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
   auto& shape = data_.shapes[element];
   ++shape.contact_count;
   shape.curved = shape.curved || contact.law().curve != nullptr || contact.follows_surface();
-  data_.add_to_layer(contact, element);
-  data_.contacts.push_back(std::move(contact));
+  contacts_.add_contact(element, std::move(contact), touch);
 }
 
 template <int P>
@@ -343,111 +306,4 @@ void ElementSetOf<P>::set_pressure(int element, const LinePressure& proportional
   data_.pressed = true;
 }
 
-template <int P>
-void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const {
-  out.contacts.resize(data_.contacts.size());
-  out.element_springs.assign(data_.springs.size(), 0);
-  for (int e = 0; e < size(); ++e) {
-    const auto& shape = data_.shapes[e];
-    const ElementDofs& dofs = data_.dofs[e];
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
-      const auto u = data_.displacement_of(data_.contacts[i], shape, dofs, y.data());
-      data_.contacts[i].contact_intervals(u.start, u.dx, u.dy, out.contacts[i], -tolerance);
-    }
-    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
-      out.element_springs[i] =
-          data_.value(data_.springs[i], dofs, y.data()) > data_.springs[i].law.gap - tolerance;
-  }
-  freeze_layers(y, tolerance, out);
-}
-
-template <int P>
-void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
-                                    TouchingMarks& out) const {
-  out.contacts.assign(data_.contacts.size(), 0);
-  out.element_springs.assign(data_.springs.size(), 0);
-  for (int e = 0; e < size(); ++e) {
-    const auto& shape = data_.shapes[e];
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
-      const auto u = data_.displacement_of(data_.contacts[i], shape, data_.dofs[e], y.data());
-      out.contacts[i] =
-          data_.contacts[i].is_near(u.start, u.dx, u.dy, near.of(data_.contacts[i].law().stiffness));
-    }
-    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i) {
-      const auto& support = data_.springs[i];
-      const double w = data_.value(support, data_.dofs[e], y.data()) - support.law.gap;
-      out.element_springs[i] = support.law.one_sided && std::abs(w) <= near.of(support.law.stiffness);
-    }
-  }
-  unmark_pressed_layers(y, near, out);
-}
-
-template <int P>
-std::vector<TouchingSpring> ElementSetOf<P>::touching_springs(const TouchingMarks& marks,
-                                                              const FrozenContact* frozen) const {
-  std::vector<TouchingSpring> out;
-  for (std::size_t i = 0; i < data_.springs.size(); ++i)
-    if (marks.element_springs[i] != 0)
-      out.push_back({data_.springs[i].spring, frozen != nullptr && frozen->element_springs[i] != 0});
-  return out;
-}
-
-template <int P>
-void ElementSetOf<P>::touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                                             std::vector<double>& out) const {
-  for (int e = 0; e < size(); ++e) {
-    const auto& shape = data_.shapes[e];
-    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
-      if (marks.element_springs[i] != 0)
-        out.push_back(data_.value(data_.springs[i], data_.dofs[e], mode.data()));
-  }
-}
-
-template <int P>
-void ElementSetOf<P>::set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                                   std::span<const char> springs, FrozenContact& out) const {
-  auto next = springs.begin();
-  for (std::size_t i = 0; i < data_.springs.size(); ++i)
-    if (marks.element_springs[i] != 0) out.element_springs[i] = *next++;
-  for (int e = 0; e < size(); ++e) {
-    const auto& shape = data_.shapes[e];
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
-      if (marks.contacts[i] == 0) continue;
-      const FoundationContact& contact = data_.contacts[i];
-      out.contacts[i].assign(1, {contact.range()[0], contact.range()[1]});
-      if (mode.size() == 0) continue;
-      const auto u = data_.displacement_of(contact, shape, data_.dofs[e], mode.data());
-      contact.intervals_into(u.start, u.dx, u.dy, out.contacts[i]);
-    }
-  }
-  if (mode.size() > 0) set_touching_layers(marks, mode, out);
-}
-
-template <int P>
-std::vector<TouchingContact> ElementSetOf<P>::touching_contacts(const TouchingMarks& marks,
-                                                                const FrozenContact* frozen) const {
-  std::vector<TouchingContact> out;
-  for (int e = 0; e < size(); ++e)
-    for (int i = data_.shapes[e].first_contact;
-         i < data_.shapes[e].first_contact + data_.shapes[e].contact_count; ++i)
-      if (marks.contacts[i] != 0)
-        out.push_back({e, data_.contacts[i].foundation(), data_.contacts[i].range(),
-                       frozen != nullptr ? frozen->contacts[i] : std::vector<ElementPart>{}});
-  return out;
-}
-
-template <int P>
-double ElementSetOf<P>::frozen_share(const FrozenContact& frozen, int element, int foundation) const {
-  const auto& shape = data_.shapes[element];
-  double share = 0.0;
-  for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
-    if (data_.contacts[i].foundation() != foundation) continue;
-    for (const ElementPart& part : frozen.contacts[i]) share += part.to - part.from;
-  }
-  return share;
-}
-
 }  // namespace snapthrough
-
-#include "solver/element/element_layers.h"
-#include "solver/element/element_zones.h"

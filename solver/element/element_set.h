@@ -25,23 +25,15 @@
 #include <utility>
 #include <vector>
 
+#include "solver/element/element_contacts.h"
+#include "solver/element/element_parts.h"
 #include "solver/element/foundation_contact.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/lanes.h"
-#include "solver/support/ground_motion.h"
 #include "solver/support/law.h"
 #include "solver/support/regime.h"
 
 namespace snapthrough {
-
-/// Indices of an element's unknowns in the vector of all unknowns.
-struct ElementDofs {
-  std::array<int, 3> a{};  ///< displacement (x, y, rotation) at the start
-  std::array<int, 3> b{};  ///< displacement (x, y, rotation) at the end
-  int v = 0;               ///< first of 3 P unknowns: u'_x of all Gauss points, then u'_y, then b'
-  int s = 0;               ///< first of 3 P unknowns: N of all Gauss points, then Q, then M
-  int m = 0;               ///< first of 3 multipliers
-};
 
 /// Follower pressure along an element, a linear function of the undeformed length.
 struct LinePressure {
@@ -62,36 +54,6 @@ struct ElementShape {
   std::vector<double> axial_compliance;    ///< axial strain e per axial force N
   std::vector<double> shear_compliance;    ///< shear strain g per shear force Q; all zero: unshearable
   std::vector<double> bending_compliance;  ///< curvature k per moment M
-};
-
-/// State of a one-sided support that touches without pressure, used within Rounding::touching of touching:
-/// taken from the critical motion, because rounding hides it. `none`: not such a support.
-enum class Touch : char { none, absent, acts };
-
-/// Spring on a linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q); where
-/// the ground moves, less a.u_g with its displacement u_g.
-struct SupportSpring {
-  int element = 0;
-  GroundPlace ground;
-  Law law;
-  Touch touch = Touch::none;
-  int spring = -1;  ///< index of the spring; -1: part of a foundation
-  std::array<double, 3> a{};
-  std::vector<std::array<double, 3>> v;
-};
-
-/// Touching spring, and whether it acts.
-struct TouchingSpring {
-  int spring = -1;  ///< index as in SupportSpring
-  bool acts = false;
-};
-
-/// Parts of a touching contact that act.
-struct TouchingContact {
-  int element = 0;
-  int foundation = 0;
-  std::array<double, 2> range{};  ///< part of the element, in [0, 1]
-  std::vector<ElementPart> acting;
 };
 
 /// Element after elimination of its interior, with rows for (u_a, m):
@@ -181,14 +143,15 @@ class ElementWork {
 /// @brief All elements of one mesh and order with their supports; constant once the structure is made.
 class ElementSet {
  public:
-  ElementSet() = default;
   ElementSet(const ElementSet&) = delete;
   ElementSet& operator=(const ElementSet&) = delete;
   ElementSet(ElementSet&&) = delete;
   ElementSet& operator=(ElementSet&&) = delete;
   virtual ~ElementSet() = default;
 
-  [[nodiscard]] virtual int size() const = 0;
+  [[nodiscard]] int size() const { return contacts_.elements(); }
+  /// Supports at which contact can begin or end.
+  [[nodiscard]] const ElementContacts& contacts() const { return contacts_; }
   /// Reserves memory for a number of elements.
   virtual void reserve(int elements) = 0;
   /// @brief Adds an element; element indices follow the order of calls.
@@ -196,45 +159,20 @@ class ElementSet {
   /// @brief Adds an element with the shape of one of another set, without its supports and pressure.
   /// @pre both sets have the same order
   virtual void add_like(const ElementSet& other, int element, const ElementDofs& dofs) = 0;
+  /// @brief Adds a spring to the element added last.
   virtual void add_spring(const SupportSpring& support) = 0;
-  virtual void add_contact(int element, FoundationContact contact, Touch touch) = 0;
+  /// @brief Adds part of a foundation to the element added last.
+  virtual void add_foundation(int element, FoundationContact contact, Touch touch) = 0;
   /// @brief Sets the follower pressure of an element, force per deformed length along its deformed right
   /// normal (a medium on the left pushes), as a part proportional to the load factor and a constant part.
   virtual void set_pressure(int element, const LinePressure& proportional, const LinePressure& constant) = 0;
   /// @brief Makes the working memory for evaluations. @pre the set outlives the returned object
   [[nodiscard]] virtual std::unique_ptr<ElementWork> make_work() const = 0;
 
-  /// @brief Sets contacts and springs of `out` to act where the penetration at y exceeds -`tolerance`.
-  virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
-  /// @brief Contact zones of one-sided foundations at y; their ends move as y changes at `rate`.
-  [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd& y,
-                                                 const Eigen::VectorXd& rate) const = 0;
-  /// @brief Sets contacts of `out` to act on the given zones, and springs where they act at y.
-  virtual void freeze_zones(const MovingZones& zones, const Eigen::VectorXd& y, FrozenContact& out) const = 0;
-  /// @brief Length, in elements, on which contact at y differs from `frozen`, where the pressure (or
-  /// stiffness times gap) exceeds 1e-6 of the largest pressure.
-  [[nodiscard]] virtual double missed_contact(const FrozenContact& frozen,
-                                              const Eigen::VectorXd& y) const = 0;
-  /// @brief Marks contacts (over their whole range) and springs that touch without pressure at y, within the
-  /// distance `near` for their stiffness.
-  virtual void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
-                             TouchingMarks& out) const = 0;
-  /// Marked springs, ordered as in touching_displacements() and set_touching(). @param frozen null: none acts
-  [[nodiscard]] virtual std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
-                                                                     const FrozenContact* frozen) const = 0;
-  /// Appends the displacement into the medium of each marked spring.
-  virtual void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                                      std::vector<double>& out) const = 0;
-  /// @brief Sets which marked supports act: springs as given; contacts where `mode` moves into the medium, or
-  /// on their whole range if `mode` is empty.
-  virtual void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                            std::span<const char> springs, FrozenContact& out) const = 0;
-  /// Marked contacts with the parts on which they act. @param frozen null: no contact acts
-  [[nodiscard]] virtual std::vector<TouchingContact> touching_contacts(const TouchingMarks& marks,
-                                                                       const FrozenContact* frozen) const = 0;
-  /// Fraction of an element on which a foundation acts.
-  [[nodiscard]] virtual double frozen_share(const FrozenContact& frozen, int element,
-                                            int foundation) const = 0;
+ protected:
+  explicit ElementSet(int order) : contacts_(order) {}
+
+  ElementContacts contacts_;
 };
 
 /// @brief Makes an empty set for elements of an order in 1..kMaxOrder.

@@ -7,7 +7,7 @@ namespace snapthrough {
 /// Parts on which the contacts of a layer act in the regime of the current call. They are searched for once
 /// for each y.
 template <int P>
-LayerParts ElementWorkOf<P>::parts_of_layer(const typename Data::Layer& layer,
+LayerParts ElementWorkOf<P>::parts_of_layer(const ElementContacts::Layer& layer,
                                             const std::vector<LayerCell>& cells) {
   LayerParts out(cells.size());
   const auto copy_from = [&](const std::vector<std::vector<ElementPart>>& lists) {
@@ -23,7 +23,7 @@ LayerParts ElementWorkOf<P>::parts_of_layer(const typename Data::Layer& layer,
     return out;
   }
   if (parts_known_[layer.contacts.front()] == 0) {
-    out = data_.acting_parts(layer, cells);
+    out = data_.contacts.acting_parts(layer, cells);
     for (std::size_t i = 0; i < out.size(); ++i) {
       parts_[layer.contacts[i]] = out[i];
       parts_known_[layer.contacts[i]] = 1;
@@ -37,11 +37,11 @@ LayerParts ElementWorkOf<P>::parts_of_layer(const typename Data::Layer& layer,
 template <int P>
 void ElementWorkOf<P>::find_layers(const double* y) {
   couplings_.clear();
-  layers_.resize(data_.layers.size());
+  layers_.resize(data_.contacts.layers().size());
   for (std::size_t l = 0; l < layers_.size(); ++l) {
     LayerContact& here = layers_[l];
-    here.cells = data_.cells_of(data_.layers[l], y);
-    here.parts = parts_of_layer(data_.layers[l], here.cells);
+    here.cells = data_.contacts.cells_of(data_.contacts.layers()[l], y);
+    here.parts = parts_of_layer(data_.contacts.layers()[l], here.cells);
     here.edges = edges_of(here.cells, here.parts);
     for (const LayerEdge& edge : here.edges)
       if (edge.other >= 0 && edge.begins) couplings_.push_back(coupling_of(l, edge));
@@ -72,7 +72,7 @@ auto ElementWorkOf<P>::edge_functional(std::size_t layer, const LayerEdge& edge)
 template <int P>
 Coupling ElementWorkOf<P>::coupling_of(std::size_t layer, const LayerEdge& edge) const {
   const LayerEdge& other = layers_[layer].edges[static_cast<std::size_t>(edge.other)];
-  const std::vector<int>& elements = data_.layers[layer].elements;
+  const std::vector<int>& elements = data_.contacts.layers()[layer].elements;
   Coupling out;
   add_row(edge_functional(layer, edge), elements[edge.cell], 1.0, out);
   add_row(edge_functional(layer, other), elements[other.cell], -1.0, out);
@@ -85,7 +85,7 @@ Coupling ElementWorkOf<P>::coupling_of(std::size_t layer, const LayerEdge& edge)
 /// @param share factor on the stiffness
 template <int P>
 void ElementWorkOf<P>::add_layer(std::size_t index, const Shape& shape, double share) {
-  const auto [number, cell] = data_.layer_of_contact[index];
+  const auto [number, cell] = data_.contacts.layer_of(index);
   const LayerContact& layer = layers_[static_cast<std::size_t>(number)];
   const Quadrature& gauss = data_.contact_quadrature;
   for (const ElementPart& part : layer.parts[cell]) {
@@ -123,7 +123,7 @@ void ElementWorkOf<P>::add_layer_changes(const double* along,
                                          const Eigen::Ref<const Eigen::MatrixXd>& directions,
                                          Eigen::MatrixXd& out) const {
   for (std::size_t l = 0; l < layers_.size(); ++l) {
-    const auto rates = data_.rates_of(data_.layers[l], along);
+    const auto rates = data_.contacts.rates_of(data_.contacts.layers()[l], along);
     const auto& [cells, parts, edges] = layers_[l];
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const LayerEdge& edge = edges[i];
@@ -132,7 +132,7 @@ void ElementWorkOf<P>::add_layer_changes(const double* along,
       const FoundationContact& contact = *cells[edge.cell].contact;
       const double shear = contact.shear();
       const double sense = edge.begins ? 1.0 : -1.0;
-      const int element = data_.layers[l].elements[edge.cell];
+      const int element = data_.contacts.layers()[l].elements[edge.cell];
       Coupling row;
       add_row(data_.slope_functional(contact, contact.length(), edge.xi), element, 1.0 / contact.length(),
               row);

@@ -86,7 +86,7 @@ void ElementWorkOf<P>::reduce(const ColumnLanes& rhs, std::span<CondensedForces>
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     if (shape.shearable)
-      reduce_element<3 * P>(e, rhs, shearable_[shape.factor], condensed[e]);
+      reduce_element<kStrains>(e, rhs, shearable_[shape.factor], condensed[e]);
     else
       reduce_element<2 * P>(e, rhs, stiff_[shape.factor], condensed[e]);
   }
@@ -141,7 +141,7 @@ void ElementWorkOf<P>::recover(const ColumnLanes& x) {
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     if (shape.shearable)
-      recover_element<3 * P>(e, shearable_[shape.factor], x);
+      recover_element<kStrains>(e, shearable_[shape.factor], x);
     else
       recover_element<2 * P>(e, stiff_[shape.factor], x);
   }

@@ -10,7 +10,8 @@ template <int P>
 auto ElementWorkOf<P>::parts_in_contact(std::size_t index, const Shape& shape, const ElementDofs& dofs,
                                         const double* y) -> const std::vector<ElementPart>& {
   if (parts_known_[index] == 0) {
-    data_.acting_parts(index, data_.displacement_of(contacts_[index], shape, dofs, y), parts_[index]);
+    const ContactDisplacement u = data_.displacement_of(contacts_[index], shape, dofs, y);
+    data_.contacts.acting_parts(index, u.start, u.dx, u.dy, parts_[index]);
     parts_known_[index] = 1;
   }
   return parts_[index];
@@ -302,6 +303,20 @@ void ElementWorkOf<P>::add_pressure_product(const Shape& shape, const ElementDof
       out[dofs.a[c]] += place[c];
       for (int r = 0; r < P; ++r) fv[c * P + r] += place[c] * shape.h * a_[q][r];
     }
+  }
+}
+
+/// Adds the tangent products of the supports in acting_, as left by add_support_residual().
+template <int P>
+void ElementWorkOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
+                                          double* out) const {
+  for (const Functional& f : acting_) {
+    const double force = f.tangent * data_.value(f, dofs, direction);
+    for (int k = 0; k < 3; ++k) {
+      out[dofs.a[k]] += force * f.a[k];
+      for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];
+    }
+    f.ground.push(force, f.a, out);
   }
 }
 

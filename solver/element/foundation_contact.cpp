@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/element/zone_search.h"
 #include "solver/numeric/chebyshev_series.h"
 #include "solver/numeric/cubic.h"
 #include "solver/numeric/max_order.h"
@@ -15,14 +16,8 @@
 namespace snapthrough {
 namespace {
 
-/// Search of zones of contact within one element. Source: docs/decisions/0022.
-struct ContactSearch {
-  static constexpr int least_samples = 13;  ///< samples on a curved axis at least: they resolve its rotation
-  static constexpr int parts = 4;           ///< parts of a cell between two samples
-  static constexpr int dip_trials = 20;     ///< points at most in the search of a minimum
-  static constexpr double zero = 1e-10;     ///< |g| that is rounding, over |g| at the other end of a part
-  static constexpr double vanishing = 1e-12;  ///< number of a law that counts as zero, over its largest value
-};
+/// Samples on a curved axis at least: they resolve its rotation. Source: docs/decisions/0022.
+constexpr int kLeastSamples = 13;
 
 }  // namespace
 
@@ -56,7 +51,7 @@ template <class Samples>
 Samples without_direction(int order, bool turns, std::array<double, 2> range) {
   const CollocationRule& rule = CollocationRule::of(order);
   Samples out;
-  out.count = std::max(2 * order + 3, turns ? ContactSearch::least_samples : 0);
+  out.count = std::max(2 * order + 3, turns ? kLeastSamples : 0);
   out.blocks = (out.count + kLanes - 1) / kLanes;
   out.rows.assign(static_cast<std::size_t>(out.blocks) * (2 + order), Lanes::Zero());
   std::array<double, kMaxOrder> a{};
@@ -177,19 +172,14 @@ PlaceOnAxis FoundationContact::place_at(double xi) const {
   return {{scale * at.x, scale * at.y}, at.angle, out.fraction};
 }
 
-namespace {
-
-/// a + sum_r weights_r (dx_r, dy_r).
-std::array<double, 2> combined(std::array<double, 2> a, std::span<const double> weights,
-                               std::span<const double> dx, std::span<const double> dy) {
+std::array<double, 2> FoundationContact::combined(std::array<double, 2> a, std::span<const double> weights,
+                                                  std::span<const double> dx, std::span<const double> dy) {
   for (std::size_t r = 0; r < dx.size(); ++r) {
     a[0] += weights[r] * dx[r];
     a[1] += weights[r] * dy[r];
   }
   return a;
 }
-
-}  // namespace
 
 std::array<double, 2> FoundationContact::displacement(double xi, std::array<double, 2> ua,
                                                       std::span<const double> dx,
@@ -237,25 +227,6 @@ double FoundationContact::slope_to_surface(double xi, std::array<double, 2> u,
 
 namespace {
 
-/// Interpolant of the penetration samples, set up on first use because most searches need none.
-class SampledGap {
- public:
-  explicit SampledGap(std::span<const double> samples) : samples_(samples) {}
-
-  [[nodiscard]] double value(double z) const { return series().value(z); }
-  [[nodiscard]] double slope(double z) const { return series().slope(z); }
-  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const { return series().values(z); }
-
- private:
-  [[nodiscard]] const ChebyshevSeries& series() const {
-    if (!series_) series_.emplace(samples_);
-    return *series_;
-  }
-
-  std::span<const double> samples_;
-  mutable std::optional<ChebyshevSeries> series_;
-};
-
 /// Penetration minus a depth, evaluated exactly, on the range scaled to [0, 1].
 class ExactGap {
  public:
@@ -281,113 +252,6 @@ class ExactGap {
   std::span<const double> dx_, dy_;
   double depth_;
 };
-
-/// Position on the range, scaled to [0, 1], with the penetration there.
-struct Sample {
-  double z = 0.0;
-  double g = 0.0;
-};
-
-template <class Gap>
-double root_between(const Gap& gap, Sample lo, Sample hi) {
-  // Illinois variant of regula falsi: keeps the bracket, converges superlinearly
-  int last = 0;
-  for (int it = 0; it < 60; ++it) {
-    const double z = hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g);
-    if (hi.z - lo.z < 1e-15 || z <= lo.z || z >= hi.z) break;
-    const double g = gap.value(z);
-    if (g == 0.0) return z;
-    if ((g > 0.0) == (hi.g > 0.0)) {
-      hi = {z, g};
-      if (last == 1) lo.g *= 0.5;
-      last = 1;
-    } else {
-      lo = {z, g};
-      if (last == -1) hi.g *= 0.5;
-      last = -1;
-    }
-  }
-  return std::clamp(hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g), lo.z, hi.z);
-}
-
-/// Position at which g has the opposite of `sign` between two positions with `sign`; empty if none exists.
-template <class Gap>
-std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, double sign) {
-  double fall = sign * gap.slope(left.z);
-  double rise = sign * gap.slope(right.z);
-  const double whole = right.z - left.z;
-  // beside a clamped end, where g and its slope are zero, g is not convex
-  if (const auto t = Cubic{sign * left.g, fall * whole, sign * right.g, rise * whole}.minimum()) {
-    const double z = left.z + *t * whole;
-    if (const Sample least{z, gap.value(z)}; sign * least.g < 0.0) return least;
-  }
-  for (int n = 0; n < ContactSearch::dip_trials && fall < 0.0 && rise > 0.0; ++n) {
-    // a convex function stays above both end tangents
-    const double width = right.z - left.z;
-    const double meet = (sign * (right.g - left.g) - rise * width) / (fall - rise);
-    if (sign * left.g + fall * meet > 0.0) break;
-    const double share = std::clamp(-fall / (rise - fall), 0.1, 0.9);
-    const double z = left.z + share * width;
-    const Sample middle{z, gap.value(z)};
-    if (sign * middle.g <= 0.0) return middle;
-    const double slope = sign * gap.slope(z);
-    (slope < 0.0 ? left : right) = middle;
-    (slope < 0.0 ? fall : rise) = slope;
-  }
-  return std::nullopt;
-}
-
-/// Position of the sign change between two samples. Beside a fixed node g is zero up to rounding, whose sign
-/// is ignored: a sign change before the node is searched for.
-template <class Gap>
-double change_between(const Gap& gap, const Sample& left, const Sample& right) {
-  const bool to_zero = std::abs(right.g) < ContactSearch::zero * std::abs(left.g);
-  const bool from_zero = std::abs(left.g) < ContactSearch::zero * std::abs(right.g);
-  if (!to_zero && !from_zero) return root_between(gap, left, right);
-  const Sample& far = to_zero ? left : right;
-  const auto dip = dip_between(gap, left, right, far.g > 0.0 ? 1.0 : -1.0);
-  if (!dip) return to_zero ? right.z : left.z;
-  return to_zero ? root_between(gap, left, *dip) : root_between(gap, *dip, right);
-}
-
-/// Calls cross(position, true if contact begins there) for each sign change between two samples.
-template <class Gap, class Cross>
-void search_part(const Gap& gap, const Sample& left, const Sample& right, const Cross& cross) {
-  const bool inside = left.g > 0.0;
-  if (inside != (right.g > 0.0)) {
-    cross(change_between(gap, left, right), !inside);
-    return;
-  }
-  const auto dip = dip_between(gap, left, right, inside ? 1.0 : -1.0);
-  if (!dip || (dip->g > 0.0) == inside) return;
-  cross(root_between(gap, left, *dip), !inside);
-  cross(root_between(gap, *dip, right), inside);
-}
-
-/// Whether g may change sign between two values: the signs differ, or the smaller |g| is at most `change`.
-bool may_cross(double left, double right, double change) {
-  return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= change;
-}
-
-/// Searches a cell between two samples in four parts, to find zones smaller than the sampling.
-/// @param before, after changes of g on the parts next to the cell
-template <class Gap, class Cross>
-void search_cell(const Gap& gap, const Sample& left, const Sample& right, double before, double after,
-                 const Cross& cross) {
-  constexpr int parts = ContactSearch::parts;
-  const double width = right.z - left.z;
-  const Eigen::Array4d z =
-      left.z + width * Eigen::Array4d(1.0 / parts, 2.0 / parts, 3.0 / parts, 4.0 / parts);
-  const Eigen::Array4d inner = gap.values(z);
-  std::array<Sample, parts + 1> places{left, Sample{z[0], inner[0]}, Sample{z[1], inner[1]},
-                                       Sample{z[2], inner[2]}, right};
-  std::array<double, parts + 2> moves{before};
-  for (int i = 0; i < parts; ++i) moves[i + 1] = std::abs(places[i + 1].g - places[i].g);
-  moves[parts + 1] = after;
-  for (int i = 0; i < parts; ++i)
-    if (may_cross(places[i].g, places[i + 1].g, std::max({moves[i], moves[i + 1], moves[i + 2]})))
-      search_part(gap, places[i], places[i + 1], cross);
-}
 
 }  // namespace
 
@@ -464,7 +328,7 @@ void FoundationContact::pressed_intervals(std::array<double, 2> ua, std::span<co
   for (std::size_t i = 0; i < count; ++i)
     pressure[i] = modulus() * w[i] - shear() * slopes.slope(samples_->z[i]) / length;
   out.clear();
-  search(SampledGap(std::span<const double>(pressure).first(count)), pressure, out);
+  search_zones(SampledGap(std::span<const double>(pressure).first(count)), samples_->z, pressure, samples_->count, range_, out);
 }
 
 std::array<double, 2> FoundationContact::direction_rate(double xi) const {
@@ -482,31 +346,6 @@ bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double
                      [distance](double w) { return std::abs(w) <= distance; });
 }
 
-/// Finds the contact intervals from the penetration minus a depth, given its values g at the samples.
-template <class Gap>
-void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
-  const int n = samples_->count;
-  const Values& z = samples_->z;
-  const double length = range_[1] - range_[0];
-  double from = range_[0];
-  const auto cross = [&](double place, bool entering) {
-    const double at = range_[0] + length * place;
-    if (entering) from = at;
-    if (!entering && at > from) out.push_back({from, at});
-  };
-  Values rate;  // slope of g in the cell before sample i
-  rate[0] = 0.0;
-  for (int i = 1; i < n; ++i) rate[i] = std::abs(g[i] - g[i - 1]) / (z[i] - z[i - 1]);
-  rate[n] = 0.0;
-  for (int i = 0; i + 1 < n; ++i) {
-    const double width = z[i + 1] - z[i];
-    if (!may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
-    search_cell(gap, Sample{z[i], g[i]}, Sample{z[i + 1], g[i + 1]}, rate[i] * width / ContactSearch::parts,
-                rate[i + 2] * width / ContactSearch::parts, cross);
-  }
-  if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
-}
-
 void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
                                           std::span<const double> dy, std::vector<Interval>& out,
                                           double depth) const {
@@ -518,9 +357,9 @@ void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<co
   Values g;
   penetrations(ua, dx, dy, depth, g);
   if (samples_->exact && foundation_law_.gap_along.empty())
-    search(SampledGap(std::span<const double>(g).first(samples_->count)), g, out);
+    search_zones(SampledGap(std::span<const double>(g).first(samples_->count)), samples_->z, g, samples_->count, range_, out);
   else
-    search(ExactGap(*this, ua, dx, dy, depth), g, out);
+    search_zones(ExactGap(*this, ua, dx, dy, depth), samples_->z, g, samples_->count, range_, out);
 }
 
 void FoundationContact::intervals_into(std::array<double, 2> ua, std::span<const double> dx,
@@ -532,161 +371,7 @@ void FoundationContact::intervals_into(std::array<double, 2> ua, std::span<const
   out.clear();
   Values w;
   motions_into(ua, dx, dy, 0.0, w);
-  search(SampledGap(std::span<const double>(w).first(samples_->count)), w, out);
-}
-
-/// Stiffness, capacity and shape of a law at the samples. Where a number along the member vanishes, a very
-/// small one stands for it, so that quotients exist.
-void FoundationContact::laws_at_samples(std::array<Values, 3>& out) const {
-  const double width = range_[1] - range_[0];
-  for (int i = 0; i < samples_->count; ++i) {
-    double stiffness = 1.0;
-    double capacity = 1.0;
-    if (foundation_law_.variation) {
-      const double xi = range_[0] + samples_->z[i] * width;
-      const double fraction = place_.from + xi * (place_.to - place_.from);
-      stiffness = std::max(foundation_law_.variation->stiffness.at(fraction), ContactSearch::vanishing);
-      capacity = std::max(foundation_law_.variation->capacity.at(fraction), ContactSearch::vanishing);
-    }
-    out[0][i] = law_.stiffness * stiffness;
-    out[1][i] = law_.capacity * capacity;
-    out[2][i] = law_.shape * stiffness / capacity;
-  }
-}
-
-/// Appends the places at which the argument k w / P of the curve is sign times that of a knot, x: the roots
-/// of k w - sign x P, which is smooth where P vanishes.
-/// @param w penetrations, @param laws see laws_at_samples()
-void FoundationContact::add_knot(int knot, double sign, const Values& w, const std::array<Values, 3>& laws,
-                                 std::vector<KnotPlace>& out) const {
-  const auto count = static_cast<std::ptrdiff_t>(samples_->count);
-  const double width = range_[1] - range_[0];
-  Values beyond;
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-    beyond[i] = laws[0][i] * w[i] - sign * law_.curve->knot(knot, laws[2][i]).x * laws[1][i];
-  const SampledGap gap(std::span<const double>(beyond).first(count));
-  std::vector<Interval> above;
-  search(gap, beyond, above);
-  const auto add = [&](double xi) {
-    if (xi == range_[0] || xi == range_[1]) return;
-    const Law law = law_at(xi);
-    if (!(law.stiffness > 0.0)) return;
-    out.push_back({xi, sign * law.stiffness * law_.curve->knot(knot, law.shape).slope_change,
-                   gap.slope((xi - range_[0]) / width) / (width * law.stiffness)});
-  };
-  for (const Interval& part : above) {
-    add(part.from);
-    add(part.to);
-  }
-}
-
-/// Appends the places at which numbers of the law bend, for fixed meshes whose elements do not end there.
-void FoundationContact::add_bends(std::vector<KnotPlace>& out) const {
-  if (!foundation_law_.variation) return;
-  for (const AlongMember* value :
-       {&foundation_law_.variation->stiffness, &foundation_law_.variation->capacity}) {
-    for (const auto& [fraction, unused] : value->points) {
-      const double xi = (fraction - place_.from) / (place_.to - place_.from);
-      if (xi > range_[0] && xi < range_[1]) out.push_back({xi, 0.0, 1.0});
-    }
-  }
-}
-
-/// Distance of the moved axis ahead of a seam, along the surface; on the range scaled to [0, 1].
-class AheadOfSeam {
- public:
-  AheadOfSeam(const FoundationContact& contact, std::array<double, 2> ua, std::span<const double> dx,
-              std::span<const double> dy, const SurfaceSeam& seam)
-      : contact_(contact), ua_(ua), dx_(dx), dy_(dy), seam_(seam) {}
-
-  [[nodiscard]] double value(double z) const {
-    const double xi = at(z);
-    const auto x = contact_.place_at(xi).x;
-    const auto u = contact_.displacement(xi, ua_, dx_, dy_);
-    return (x[0] + u[0] - seam_.x[0]) * seam_.tangent[0] + (x[1] + u[1] - seam_.x[1]) * seam_.tangent[1];
-  }
-  [[nodiscard]] double slope(double z) const {
-    const double xi = at(z);
-    std::array<double, kMaxOrder> l{};
-    contact_.rule_->values_at(xi, std::span(l).first(dx_.size()));
-    const auto du = combined({0.0, 0.0}, l, dx_, dy_);
-    const double angle = contact_.place_at(xi).angle;
-    const double length = contact_.place_.length;
-    return (contact_.range_[1] - contact_.range_[0]) *
-           ((length * std::cos(angle) + du[0]) * seam_.tangent[0] +
-            (length * std::sin(angle) + du[1]) * seam_.tangent[1]);
-  }
-  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const {
-    return {value(z[0]), value(z[1]), value(z[2]), value(z[3])};
-  }
-
- private:
-  [[nodiscard]] double at(double z) const {
-    return contact_.range_[0] + z * (contact_.range_[1] - contact_.range_[0]);
-  }
-
-  const FoundationContact& contact_;
-  std::array<double, 2> ua_;
-  std::span<const double> dx_, dy_;
-  const SurfaceSeam& seam_;
-};
-
-/// Appends the places at which the axis passes a seam of the surface. The stiffness normal to the surface
-/// does not change there.
-void FoundationContact::add_seams(std::array<double, 2> ua, std::span<const double> dx,
-                                  std::span<const double> dy, std::vector<KnotPlace>& out) const {
-  std::vector<Interval> ahead;
-  for (const SurfaceSeam& seam : foundation_law_.surface->seams()) {
-    const AheadOfSeam gap(*this, ua, dx, dy, seam);
-    Values g;
-    for (int i = 0; i < samples_->count; ++i) g[i] = gap.value(samples_->z[i]);
-    ahead.clear();
-    search(gap, g, ahead);
-    const double width = range_[1] - range_[0];
-    for (const Interval& part : ahead) {
-      for (const double xi : {part.from, part.to}) {
-        if (xi == range_[0] || xi == range_[1]) continue;
-        const SurfacePoint at = penetration_at(xi, displacement(xi, ua, dx, dy));
-        const double turn = at.into[0] * seam.tangent[1] - at.into[1] * seam.tangent[0];
-        out.push_back({xi, 0.0, gap.slope((xi - range_[0]) / width) / width,
-                       std::copysign(1.0, turn) * seam.bend_change(at.depth)});
-      }
-    }
-  }
-}
-
-void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const double> dx,
-                                    std::span<const double> dy, std::vector<KnotPlace>& out) const {
-  out.clear();
-  if (follows_surface()) add_seams(ua, dx, dy, out);
-  if (law_.curve != nullptr) add_law_knots(ua, dx, dy, out);
-  std::sort(out.begin(), out.end(), [](const KnotPlace& a, const KnotPlace& b) { return a.xi < b.xi; });
-}
-
-void FoundationContact::add_law_knots(std::array<double, 2> ua, std::span<const double> dx,
-                                      std::span<const double> dy, std::vector<KnotPlace>& out) const {
-  add_bends(out);
-  Values w;
-  Values x;
-  std::array<Values, 3> laws;
-  penetrations(ua, dx, dy, 0.0, w);
-  laws_at_samples(laws);
-  for (int i = 0; i < samples_->count; ++i) x[i] = laws[0][i] * w[i] / laws[1][i];
-  const auto [least, most] = std::minmax_element(x.begin(), x.begin() + samples_->count);
-  const auto ends = std::minmax_element(laws[2].begin(), laws[2].begin() + samples_->count);
-  const std::array<double, 2> shapes{*ends.first, *ends.second};
-  const auto places = [&](int k) {
-    return std::array{law_.curve->knot(k, shapes[0]).x, law_.curve->knot(k, shapes[1]).x};
-  };
-  const int knots = law_.curve->knot_count();
-  for (int k = 0; k < knots; ++k) {
-    const auto at = places(k);
-    if (k + 1 < knots && places(k + 1) == at) continue;  // one place, of which the last knot has the change
-    const double low = std::min(at[0], at[1]);
-    const double high = std::max(at[0], at[1]);
-    if (high >= *least && low <= *most) add_knot(k, 1.0, w, laws, out);
-    if (!law_.one_sided && high > 0.0 && -low >= *least && -high <= *most) add_knot(k, -1.0, w, laws, out);
-  }
+  search_zones(SampledGap(std::span<const double>(w).first(samples_->count)), samples_->z, w, samples_->count, range_, out);
 }
 
 std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::array<double, 2> ua,

@@ -197,8 +197,9 @@ class FoundationContact {
   void laws_at_samples(std::array<Values, 3>& out) const;
   void add_knot(int knot, double sign, const Values& w, const std::array<Values, 3>& laws,
                 std::vector<KnotPlace>& out) const;
-  template <class Gap>
-  void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
+  /// a + sum_r weights_r (dx_r, dy_r).
+  [[nodiscard]] static std::array<double, 2> combined(std::array<double, 2> a, std::span<const double> weights,
+                                                      std::span<const double> dx, std::span<const double> dy);
 
   [[nodiscard]] const Direction& direction() const { return foundation_law_.direction; }
 

@@ -305,7 +305,7 @@ std::optional<VectorXd> small_displacement_state(StructuralProblem& problem, dou
 
 std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda, int& factorizations) {
   const auto state = small_displacement_state(problem, lambda, factorizations);
-  return state ? std::optional(problem.frozen_contact(*state, true)) : std::nullopt;
+  return state ? std::optional(problem.contact().frozen(*state, true)) : std::nullopt;
 }
 
 }  // namespace snapthrough

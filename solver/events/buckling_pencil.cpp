@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "solver/mesh/dof_map.h"
 #include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
 #include "solver/problem/held_motions.h"
@@ -63,9 +64,9 @@ void BucklingPencil::drop_rounding(double least, VectorXd& response) const {
   const int p = structure_.mesh.order;
   double largest = 0.0;
   for (const ElementDofs& dofs : structure_.dofs)
-    largest = std::max(largest, response.segment(dofs.s, 3 * p).lpNorm<Eigen::Infinity>());
+    largest = std::max(largest, response.segment(dofs.s, DofMap::count(p)).lpNorm<Eigen::Infinity>());
   if (largest > least) return;
-  for (const ElementDofs& dofs : structure_.dofs) response.segment(dofs.s, 3 * p).setZero();
+  for (const ElementDofs& dofs : structure_.dofs) response.segment(dofs.s, DofMap::count(p)).setZero();
 }
 
 bool BucklingPencil::holds_are_idle(double lambda) {
@@ -113,9 +114,9 @@ std::optional<VectorXd> BucklingPencil::state_at(double load) {
 bool BucklingPencil::freeze_contact(double load) {
   const std::optional<VectorXd> y = state_at(load);
   if (!y) return false;
-  contact_ = problem_.frozen_contact(*y, true);
+  contact_ = problem_.contact().frozen(*y, true);
   if (structure_.curved()) contact_.linearised_at = *y;
-  marks_ = problem_.marks_at(*y, true);
+  marks_ = problem_.contact().marks_at(*y, true);
   return true;
 }
 
@@ -158,8 +159,8 @@ VectorXd BucklingPencil::stress(double lambda) const {
   VectorXd y = VectorXd::Zero(problem_.size());
   const int p = structure_.mesh.order;
   for (const ElementDofs& dofs : structure_.dofs)
-    y.segment(dofs.s, 3 * p) =
-        constant_.segment(dofs.s, 3 * p) + sense_ * lambda * proportional_.segment(dofs.s, 3 * p);
+    y.segment(dofs.s, DofMap::count(p)) =
+        constant_.segment(dofs.s, DofMap::count(p)) + sense_ * lambda * proportional_.segment(dofs.s, DofMap::count(p));
   return y;
 }
 
@@ -175,7 +176,7 @@ void BucklingPencil::to_global(MatrixXd& rows) const {
     const double angle = structure_.supports[j].angle;
     if (angle == 0.0) continue;
     const Eigen::Rotation2Dd turn(angle);
-    rows.middleRows(3 * j, 2) = turn.toRotationMatrix() * rows.middleRows(3 * j, 2);
+    rows.middleRows(DofMap::first(j), 2) = turn.toRotationMatrix() * rows.middleRows(DofMap::first(j), 2);
   }
 }
 

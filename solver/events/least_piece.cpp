@@ -64,26 +64,26 @@ class Search {
 };
 
 void Search::set_springs(unsigned springs) {
-  acting_.resize(problem_.touching_springs(marks_));
+  acting_.resize(problem_.contact().springs(marks_));
   for (std::size_t i = 0; i < acting_.size(); ++i) acting_[i] = (springs >> i) % 2 != 0;
-  problem_.set_touching(marks_, VectorXd::Zero(problem_.size()), acting_, contact_);
+  problem_.contact().set(marks_, VectorXd::Zero(problem_.size()), acting_, contact_);
 }
 
 void Search::set_all(bool acting) {
-  acting_.assign(problem_.touching_springs(marks_), acting ? 1 : 0);
-  problem_.set_touching(marks_, acting ? VectorXd() : VectorXd::Zero(problem_.size()), acting_, contact_);
+  acting_.assign(problem_.contact().springs(marks_), acting ? 1 : 0);
+  problem_.contact().set(marks_, acting ? VectorXd() : VectorXd::Zero(problem_.size()), acting_, contact_);
 }
 
 void Search::set_cone_of(const VectorXd& motion) {
-  problem_.touching_displacements(marks_, motion, displacements_);
+  problem_.contact().displacements(marks_, motion, displacements_);
   acting_.resize(displacements_.size());
   for (std::size_t i = 0; i < acting_.size(); ++i) acting_[i] = displacements_[i] > 0.0;
-  problem_.set_touching(marks_, motion, acting_, contact_);
+  problem_.contact().set(marks_, motion, acting_, contact_);
 }
 
 /// Whether the mode or its opposite moves into all springs that act and away from all others.
 bool Search::fits(const VectorXd& mode, unsigned springs) {
-  problem_.touching_displacements(marks_, mode, displacements_);
+  problem_.contact().displacements(marks_, mode, displacements_);
   bool one_way = true;
   bool other_way = true;
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
@@ -102,7 +102,7 @@ Search::Node Search::visit(unsigned springs, std::size_t next) {
 }
 
 LeastPiece Search::over_springs() {
-  const std::size_t count = problem_.touching_springs(marks_);
+  const std::size_t count = problem_.contact().springs(marks_);
   std::priority_queue<Node> queue;
   queue.push(visit(0U, 0));
   for (int pieces = 1; !queue.empty();) {
@@ -176,7 +176,7 @@ LeastPiece set_least_piece(const StructuralProblem& problem, const PieceSolver& 
                            const TouchingMarks& marks, const VectorXd& near, FrozenContact& contact) {
   Search search(problem, solver, marks, contact);
   const bool foundations = std::find(marks.contacts.begin(), marks.contacts.end(), 1) != marks.contacts.end();
-  if (!foundations && problem.touching_springs(marks) <= PieceLimits::most_springs)
+  if (!foundations && problem.contact().springs(marks) <= PieceLimits::most_springs)
     if (const LeastPiece least = search.over_springs(); least.found) return least;
   return search.by_descent(near);
 }

@@ -44,8 +44,8 @@ bool still_touch(const Structure& structure, const VectorXd& from, double lambda
   const auto outcome =
       correct(problem, metric, {}, lambda * metric.norm(displacement, 0.0), {}, y, lambda, work);
   if (outcome.status != CorrectorStatus::converged) return false;
-  const TouchingMarks marks = problem.marks_at(y);
-  return has_any(marks) && std::abs(amount(problem.touching(marks, nullptr)) - amount(structure.touching)) <=
+  const TouchingMarks marks = problem.contact().marks_at(y);
+  return has_any(marks) && std::abs(amount(problem.contact().touching(marks, nullptr)) - amount(structure.touching)) <=
                                TouchingLimits::lost;
 }
 
@@ -60,7 +60,7 @@ TouchingSupports least_piece(const Structure& structure, double reference, const
   StructuralProblem problem(unknown);
   buckling = linear_buckling(unknown, problem, 1, reference, near);
   if (!buckling.piece.found || !buckling.complete || buckling.loads.empty()) return {};
-  TouchingSupports out = problem.touching(buckling.marks, &buckling.contact);
+  TouchingSupports out = problem.contact().touching(buckling.marks, &buckling.contact);
   out.motion = buckling.piece.motion;
   out.reference = reference;
   return out;
@@ -77,7 +77,7 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
   problem.linearise(zero, 0.0, residual, glued);
   problem.load(zero, 0.0, response);
   problem.solve(response);
-  return has_any(problem.marks_at(structure.scales.load * response));
+  return has_any(problem.contact().marks_at(structure.scales.load * response));
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ std::optional<Structure> with_least_piece(const Structure& structure, Structural
       point && !is_loose ? TouchingLimits::on_the_way * norm.load_scale() : structure.scales.load;
   if (point) {
     const VectorXd linear = point->y + (ahead / point->tangent_lambda) * point->tangent;
-    if (!has_any(problem.marks_at(linear)) && !(is_loose && glued_touches(structure, problem)))
+    if (!has_any(problem.contact().marks_at(linear)) && !(is_loose && glued_touches(structure, problem)))
       return std::nullopt;
   }
   LinearBuckling buckling;

@@ -42,7 +42,8 @@ class Collector {
     for (const ResolvedSpring& spring : model_.springs) add(spring.at);
     for (const ResolvedPointMass& mass : model_.masses) add(mass.at);
     for (const ResolvedFoundation& foundation : model_.foundations) add(foundation);
-    for (const ResolvedLoad& load : model_.loads) std::visit([this](const auto& one) { add(one); }, load);
+    for (const Action& action : model_.actions)
+      std::visit([this](const auto& one) { add(one); }, action.what);
     for (const ResolvedImperfection& imperfection : model_.imperfections)
       std::visit([this](const auto& one) { add(one); }, imperfection);
     return std::move(actions_);
@@ -81,26 +82,21 @@ class Collector {
     add_points(foundation.displacement->y.points, places);
   }
 
-  void add(const ResolvedPointLoad& load) { add(load.at); }
-  void add(const ResolvedDistributedLoad& load) {
+  void add(const PointAction& load) { add(load.at); }
+  void add(const LineAction& load) {
     std::vector<double>& places = on(load.member).places;
-    places.insert(places.end(), load.range.begin(), load.range.end());
-    add_points(load.force_along, places);
+    for (const LinePiece& piece : load.pieces)
+      places.insert(places.end(), piece.range.begin(), piece.range.end());
   }
-  void add(const ResolvedPressureLoad& load) { add_points(load.value_along, on(load.member).places); }
-  void add(const ResolvedInitialStrain& strain) {
+  void add(const PressureAction& load) { add_points(load.value_along, on(load.member).places); }
+  void add(const StrainAction& strain) {
     add_points(strain.axial_along, on(strain.member).places);
     add_points(strain.curvature_along, on(strain.member).places);
-  }
-  void add(const ResolvedTemperatureLoad& load) {
-    add_points(load.change_along, on(load.member).places);
-    add_points(load.gradient_along, on(load.member).places);
   }
 
   void add(const ResolvedSineImperfection& sine) { need(sine.member, 2.0 * sine.half_waves); }
   void add(const ResolvedPointsImperfection& points) { need(points.member, intervals_of(points)); }
   // these put no element ends on a member
-  void add(const SelfWeight& /*weight*/) {}
   void add(const ModeImperfection& /*mode*/) {}
   void add(const WorstImperfection& /*worst*/) {}
 

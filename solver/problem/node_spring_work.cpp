@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/mesh/dof_map.h"
+
 namespace snapthrough {
 
 using Eigen::Vector3d;
@@ -130,8 +132,8 @@ double NodeSpringWork::rounding(const VectorXd& y) const {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const NodeSpring& spring = springs_[i];
     if (states_[i].stiffness == 0.0) continue;
-    Vector3d sizes = y.segment<3>(3 * static_cast<Eigen::Index>(spring.node)).cwiseAbs();
-    if (spring.to >= 0) sizes += y.segment<3>(3 * static_cast<Eigen::Index>(spring.to)).cwiseAbs();
+    Vector3d sizes = DofMap::at(y, spring.node).cwiseAbs();
+    if (spring.to >= 0) sizes += DofMap::at(y, spring.to).cwiseAbs();
     largest = std::max(largest,
                        states_[i].stiffness * (spring.law.gap + states_[i].gradient.cwiseAbs().dot(sizes)));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/escape_text.h"
@@ -29,14 +30,14 @@ CapacityLimit capacity_limit(const ResolvedModel& model, const CapacityEnds& end
   out.supports = end.supports;
   const Eigen::VectorXd motion = ends.motions.of_nodes(end.motion);
   double displaced = 0.0;
-  for (Eigen::Index j = 0; 3 * j < motion.size(); ++j)
-    displaced = std::max(displaced, motion.segment<2>(3 * j).norm());
+  for (std::size_t j = 0; j < model.nodes.size(); ++j)
+    displaced = std::max(displaced, DofMap::displacement(motion, static_cast<Eigen::Index>(j)).norm());
   const double turned = motion.lpNorm<Eigen::Infinity>();
   const bool turns_only = displaced <= Rounding::motion * turned;
   const double unit = turns_only ? turned : displaced;
   const auto cleaned = [](double value) { return std::abs(value) <= Rounding::motion ? 0.0 : value; };
   for (std::size_t j = 0; j < model.nodes.size(); ++j) {
-    const Eigen::Vector3d d = motion.segment<3>(3 * static_cast<Eigen::Index>(j)) / unit;
+    const Eigen::Vector3d d = DofMap::at(motion, static_cast<Eigen::Index>(j)) / unit;
     if (d.lpNorm<Eigen::Infinity>() <= Rounding::motion) continue;
     out.nodes.push_back({model.nodes[j].id, cleaned(d[0]), cleaned(d[1]),
                          cleaned(d[2]) / (turns_only ? 1.0 : ends.motions.parts().length())});

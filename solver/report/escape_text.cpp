@@ -156,42 +156,21 @@ std::string MovingPart::motion() const {
          rounded(cleaned(largest_.displacement[1])) + ")";
 }
 
-std::string name_of(const ResolvedModel& model, const ResolvedLoad& load) {
-  struct Namer {
-    std::string operator()(const ResolvedPointLoad& l) const {
-      if (l.at.is_on_member()) return "the point load on " + of(l.at.member);
-      return "the point load at node \"" + model.nodes[static_cast<std::size_t>(l.at.node)].id + "\"";
-    }
-    std::string operator()(const ResolvedDistributedLoad& l) const {
-      return "the distributed load on " + of(l.member);
-    }
-    std::string operator()(const ResolvedPressureLoad& l) const { return "the pressure on " + of(l.member); }
-    std::string operator()(const ResolvedInitialStrain& l) const {
-      return "the initial strain of " + of(l.member);
-    }
-    std::string operator()(const SelfWeight&) const { return "the self weight"; }
-    std::string operator()(const ResolvedTemperatureLoad& l) const {
-      return "the temperature of " + of(l.member);
-    }
-    [[nodiscard]] std::string of(int member) const {
-      return "member \"" + model.members[static_cast<std::size_t>(member)].id + "\"";
-    }
-    const ResolvedModel& model;
-  };
-  return std::visit(Namer{model}, load);
-}
-
 /// Name of the load that does most work on the motion.
 std::string driver(const RigidParts& parts, const Escape& escape) {
+  const std::vector<Action>& actions = parts.model().actions;
   double most = 0.0;
   std::string name = "the loads";
-  for (const ResolvedLoad& load : parts.model().loads) {
+  for (std::size_t i = 0; i < actions.size();) {
+    const Action& first = actions[i];
     const double factor =
-        pattern_of(load) == Pattern::constant ? escape.actions.constant : escape.actions.proportional;
-    const double work = factor * value_of(work_of(parts, load).row, escape.motion);
+        first.pattern() == Pattern::constant ? escape.actions.constant : escape.actions.proportional;
+    double work = 0.0;
+    for (; i < actions.size() && actions[i].load == first.load; ++i)
+      work += factor * value_of(work_of(parts, actions[i]).row, escape.motion);
     if (work <= most) continue;
     most = work;
-    name = name_of(parts.model(), load);
+    name = first.name;
   }
   return name;
 }

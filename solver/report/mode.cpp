@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/discrete/element_reader.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/rod_state.h"
@@ -156,7 +157,7 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
     const auto member = static_cast<std::size_t>(structure.mesh.elements[e].member);
     const Section& section = model.sections[static_cast<std::size_t>(model.members[member].section)];
     const double h = length_of_element(structure, static_cast<int>(e));
-    const auto forces = mode.segment(structure.dofs[e].s, 3 * p);
+    const auto forces = mode.segment(structure.dofs[e].s, DofMap::count(p));
     const MeshElement& cell = structure.mesh.elements[e];
     for (int q = 0; q < p; ++q) {
       const double bending = length * forces[2 * p + q];

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "solver/mesh/dof_map.h"
 #include "solver/numeric/rounding.h"
 
 namespace snapthrough {
@@ -41,7 +42,7 @@ NeutralMotion told(const Structure& structure, const Eigen::VectorXd& motion) {
   const ResolvedModel& model = *structure.model;
   double displaced = 0.0;
   for (int j = 0; j < structure.first_ground; ++j)
-    displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
+    displaced = std::max(displaced, std::hypot(motion[DofMap::first(j)], motion[DofMap::first(j) + 1]));
   const double turned = motion.lpNorm<Eigen::Infinity>();
   const bool turns_only = displaced <= Rounding::motion * turned;
   // the first large component becomes positive
@@ -52,7 +53,7 @@ NeutralMotion told(const Structure& structure, const Eigen::VectorXd& motion) {
   const double length = structure.scales.length;
   NeutralMotion out;
   for (int j = 0; j < structure.first_ground; ++j) {
-    const Eigen::Vector3d d = motion.segment<3>(3 * j) / unit;
+    const Eigen::Vector3d d = DofMap::at(motion, j) / unit;
     if (d.lpNorm<Eigen::Infinity>() <= Rounding::motion) continue;
     const auto cleaned = [](double value) { return std::abs(value) <= Rounding::motion ? 0.0 : value; };
     out.nodes.push_back({model.nodes[static_cast<std::size_t>(j)].id, turns_only ? 0.0 : cleaned(d[0]),

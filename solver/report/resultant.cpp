@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "solver/mesh/dof_map.h"
+
 namespace snapthrough {
 RigidMotions::RigidMotions(const Structure& structure, const Eigen::VectorXd& y)
     : structure_(structure),
@@ -23,7 +25,7 @@ RigidMotions::RigidMotions(const Structure& structure, const Eigen::VectorXd& y)
   };
   // nodes first, for nodes without members; the ends of members may be offset from their nodes
   for (int j = 0; j < structure.first_ground; ++j)
-    set_node({3 * j, 3 * j + 1, 3 * j + 2}, (model.nodes[j].x - structure.origin[0]) / L,
+    set_node(DofMap::of(j), (model.nodes[j].x - structure.origin[0]) / L,
              (model.nodes[j].y - structure.origin[1]) / L);
   std::vector<bool> is_placed(static_cast<std::size_t>(structure.size), false);
   for (std::size_t e = structure.dofs.size(); e-- > 0;) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/mesh/dof_map.h"
+
 namespace snapthrough {
 
 using Eigen::Vector3d;
@@ -10,7 +12,7 @@ using Eigen::VectorXd;
 namespace {
 
 Vector3d displacement_of(const VectorXd& y, int node) {
-  return y.segment<3>(3 * static_cast<Eigen::Index>(node));
+  return DofMap::at(y, node);
 }
 
 /// Sets the extremes of a rod: its force is constant, and one of its ends moves most.

@@ -47,13 +47,14 @@ void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {
 }
 
 void SectionForces::add_loads(const Eigen::VectorXd& y, double proportional, double constant) {
-  for (const ResolvedLoad& load : model_.loads) {
-    const Pattern pattern = std::visit([](const auto& l) { return l.pattern; }, load);
-    add_load(load, y, pattern == Pattern::proportional ? proportional : constant);
+  for (const int i : model_.actions_on_member[static_cast<std::size_t>(cell_.member)]) {
+    const Action& action = model_.actions[static_cast<std::size_t>(i)];
+    const double factor = action.pattern() == Pattern::proportional ? proportional : constant;
+    std::visit([&](const auto& one) { add(one, y, factor); }, action.what);
   }
 }
 
-SectionForces::PointAction SectionForces::point_force(const ResolvedPointLoad& load, double xi,
+SectionForces::PointForce SectionForces::point_force(const PointAction& load, double xi,
                                                       const Eigen::VectorXd& y, double factor) const {
   const Scales& scales = structure_.scales;
   const auto displacement = [&](const std::array<double, 3>& row) {
@@ -69,35 +70,25 @@ SectionForces::PointAction SectionForces::point_force(const ResolvedPointLoad& l
   return {xi, {x, z, moment}};
 }
 
-void SectionForces::add_load(const ResolvedLoad& load, const Eigen::VectorXd& y, double factor) {
-  const int member = cell_.member;
-  const Scales& scales = structure_.scales;
-  if (const auto* point = std::get_if<ResolvedPointLoad>(&load);
-      point != nullptr && point->at.member == member) {
-    const MeshPlace place = place_of(structure_.mesh, cell_.member, point->at.fraction);
-    if (place.element == element_) {
-      points_.push_back(point_force(*point, place.xi, y, factor));
-    }
-  }
-  if (const auto* d = std::get_if<ResolvedDistributedLoad>(&load); d != nullptr && d->member == member)
-    add_dead(line_load(*d), factor);
-  if (const auto* weight = std::get_if<SelfWeight>(&load))
-    add_dead(weight_of(model_, member, *weight), factor);
-  if (const auto* p = std::get_if<ResolvedPressureLoad>(&load); p != nullptr && p->member == member) {
-    const double sense = (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor);
-    const double from = sense * value_at(p->value, p->value_along, cell_.from);
-    const double to = sense * value_at(p->value, p->value_along, cell_.to);
-    pressure_.middle += 0.5 * (from + to);
-    pressure_.change += to - from;
-  }
+void SectionForces::add(const PointAction& load, const Eigen::VectorXd& y, double factor) {
+  const MeshPlace place = place_of(structure_.mesh, cell_.member, load.at.fraction);
+  if (place.element == element_) points_.push_back(point_force(load, place.xi, y, factor));
 }
 
-void SectionForces::add_dead(const LineLoad& load, double factor) {
+void SectionForces::add(const LineAction& load, const Eigen::VectorXd& /*y*/, double factor) {
   for (const LinePiece& piece : load.pieces) {
     const Vec2 range = part_of(cell_, piece.range);
     if (range[1] > range[0])
       dead_.push_back({piece, structure_.scales.scaled_line_load(factor), load.per, load.axes, range});
   }
+}
+
+void SectionForces::add(const PressureAction& load, const Eigen::VectorXd& /*y*/, double factor) {
+  const double sense = (load.side == Side::left ? 1.0 : -1.0) * structure_.scales.scaled_line_load(factor);
+  const double from = sense * value_at(load.value, load.value_along, cell_.from);
+  const double to = sense * value_at(load.value, load.value_along, cell_.to);
+  pressure_.middle += 0.5 * (from + to);
+  pressure_.change += to - from;
 }
 
 void SectionForces::add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers) {
@@ -280,7 +271,7 @@ std::vector<double> SectionForces::breaks_beyond(double xi) const {
 
 std::vector<double> SectionForces::breaks() const {
   std::vector<double> places = breaks_beyond(0.0);
-  for (const PointAction& point : points_) places.push_back(point.xi);
+  for (const PointForce& point : points_) places.push_back(point.xi);
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
   std::erase_if(places, [](double xi) { return xi <= kOnePlace || xi >= 1.0 - kOnePlace; });
@@ -297,7 +288,7 @@ std::array<double, 3> SectionForces::at(double xi) const {
     sum[1] += fy;
     sum[2] += (x[0] - x0[0]) * fy - (x[1] - x0[1]) * fx;
   };
-  for (const PointAction& point : points_) {
+  for (const PointForce& point : points_) {
     if (point.xi < xi || (point.xi == xi && xi < 1.0)) continue;
     add(position(point.xi), point.action[0], point.action[1]);
     sum[2] += point.action[2];

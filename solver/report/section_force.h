@@ -10,7 +10,7 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/layer_state.h"
 #include "solver/discrete/structure.h"
-#include "solver/resolve/member_loads.h"
+#include "solver/resolve/action.h"
 #include "solver/resolve/resolved_model.h"
 
 namespace snapthrough {
@@ -66,17 +66,20 @@ class SectionForces {
       });
     }
   };
-  struct PointAction {
+  struct PointForce {
     double xi;
     std::array<double, 3> action;
   };
 
   void add_loads(const Eigen::VectorXd& y, double proportional, double constant);
-  void add_load(const ResolvedLoad& load, const Eigen::VectorXd& y, double factor);
+  /// Adds an action on the member, times a factor.
+  void add(const PointAction& load, const Eigen::VectorXd& y, double factor);
+  void add(const LineAction& load, const Eigen::VectorXd& y, double factor);
+  void add(const PressureAction& load, const Eigen::VectorXd& y, double factor);
+  void add(const StrainAction&, const Eigen::VectorXd&, double) {}
   /// Action of a point load on the member of the element, at the place xi.
-  [[nodiscard]] PointAction point_force(const ResolvedPointLoad& load, double xi, const Eigen::VectorXd& y,
+  [[nodiscard]] PointForce point_force(const PointAction& load, double xi, const Eigen::VectorXd& y,
                                         double factor) const;
-  void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers);
   void add_springs(const Eigen::VectorXd& y);
@@ -114,7 +117,7 @@ class SectionForces {
   std::array<double, 3> end_{};
   std::vector<DeadLoad> dead_;
   std::vector<FoundationHere> foundations_;
-  std::vector<PointAction> points_;
+  std::vector<PointForce> points_;
   LinePressure pressure_;  ///< pressure along the deformed right normal
 };
 

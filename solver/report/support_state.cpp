@@ -12,6 +12,7 @@
 #include "solver/discrete/foundation_springs.h"
 #include "solver/discrete/layer_state.h"
 #include "solver/discrete/stops.h"
+#include "solver/mesh/dof_map.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/rounding.h"
 #include "solver/report/resultant.h"
@@ -58,7 +59,7 @@ SpringForce force_of(const Structure& structure, std::size_t index, const Vector
 VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidMotions& rigid, State& state,
                      std::vector<Bearing>& bearings) {
   const ResolvedModel& model = *structure.model;
-  VectorXd on_nodes = VectorXd::Zero(3 * structure.nodes);
+  VectorXd on_nodes = VectorXd::Zero(DofMap::count(structure.nodes));
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const ResolvedSpring& spring = model.springs[i];
     const SpringForce at = force_of(structure, i, y);
@@ -79,7 +80,7 @@ VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidM
     if (!spring.at.is_on_member())
       for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
     else if (const SpringLaw& law = structure.spring_laws[i]; law.force_unknown >= 0)
-      on_nodes.segment<3>(3 * static_cast<Eigen::Index>(node_of_stop(structure, spring))) -=
+      DofMap::at(on_nodes, node_of_stop(structure, spring)) -=
           at.force * Eigen::Vector3d(law.row[0], law.row[1], law.row[2]);
   }
   return on_nodes;
@@ -94,7 +95,7 @@ VectorXd held_forces(const Structure& structure, ElementWork& elements, const Ve
   regime.small_displacements = structure.geometry == Geometry::linear;
   elements.add_residual(y, {lambda, 1.0}, regime, f);
   add_joint_moments(structure, y, f);
-  return f.head(3 * structure.nodes) - springs;
+  return f.head(DofMap::count(structure.nodes)) - springs;
 }
 
 /// Adds the supports to the state; returns their forces on the nodes, in the problem's rows.
@@ -104,17 +105,18 @@ VectorXd add_supports(const Structure& structure, const VectorXd& held, State& s
   VectorXd reactions = VectorXd::Zero(structure.size);
   for (const ResolvedSupport& support : model.supports) {
     const int node = support.node;
+    const auto [ux, uy, turn] = DofMap::of(node);
     const NodeSupport& held_by = structure.supports[node];
     const std::array<std::array<double, 2>, 2> axes{{{std::cos(held_by.angle), std::sin(held_by.angle)},
                                                      {-std::sin(held_by.angle), std::cos(held_by.angle)}}};
     for (int c = 0; c < 2; ++c) {
       if (!held_by.fixed[c]) continue;
-      const double along = held[3 * node] * axes[c][0] + held[3 * node + 1] * axes[c][1];
-      for (int k = 0; k < 2; ++k) reactions[3 * node + k] += along * axes[c][k];
+      const double along = held[ux] * axes[c][0] + held[uy] * axes[c][1];
+      for (int k = 0; k < 2; ++k) reactions[ux + k] += along * axes[c][k];
     }
-    if (held_by.fixed[2]) reactions[3 * node + 2] = held[3 * node + 2];
-    state.supports.push_back({model.nodes[node].id, F * reactions[3 * node], F * reactions[3 * node + 1],
-                              F * structure.scales.length * reactions[3 * node + 2]});
+    if (held_by.fixed[2]) reactions[turn] = held[turn];
+    state.supports.push_back({model.nodes[node].id, F * reactions[ux], F * reactions[uy],
+                              F * structure.scales.length * reactions[turn]});
   }
   return reactions;
 }

@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -5,6 +6,7 @@
 #include <vector>
 
 #include "solver/model/id_index.h"
+#include "solver/resolve/load_actions.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/resolve/rods.h"
 
@@ -63,8 +65,11 @@ ResolvedModel Resolver::resolve() const {
   out.supports = all(model_.supports);
   out.springs = all(model_.springs);
   out.foundations = all(model_.foundations);
-  for (const Load& load : model_.loads)
-    std::visit([&](const auto& one) { out.loads.emplace_back(resolved(one)); }, load);
+  out.actions_on_member.resize(out.members.size());
+  for (std::size_t i = 0; i < model_.loads.size(); ++i) {
+    LoadActions actions(static_cast<int>(i), out);
+    std::visit([&](const auto& load) { actions.add(resolved(load)); }, model_.loads[i]);
+  }
   for (const Imperfection& imperfection : model_.imperfections)
     std::visit([&](const auto& one) { out.imperfections.emplace_back(resolved(one)); }, imperfection);
   out.masses = all(model_.masses);

@@ -11,31 +11,10 @@
 #include <vector>
 
 #include "solver/model/model.h"
+#include "solver/resolve/action.h"
+#include "solver/resolve/located.h"
 
 namespace snapthrough {
-
-/// Location with indices. Exactly one of `node`, `member` is not -1.
-struct ResolvedLocation {
-  int node = -1;
-  int member = -1;
-  double fraction = 0.0;  ///< fraction of the member's undeformed length
-  [[nodiscard]] bool is_on_member() const { return member >= 0; }
-  bool operator==(const ResolvedLocation&) const = default;
-};
-
-/// What acts on a member.
-template <class T>
-struct OnMember : T {
-  int member = -1;
-  bool operator==(const OnMember&) const = default;
-};
-
-/// What acts at a location.
-template <class T>
-struct AtLocation : T {
-  ResolvedLocation at;
-  bool operator==(const AtLocation&) const = default;
-};
 
 struct ResolvedMember : Member {
   int start = -1;    ///< node
@@ -58,13 +37,6 @@ struct ResolvedSpring : Spring {
 using ResolvedFoundation = OnMember<Foundation>;
 using ResolvedMonitor = AtLocation<Monitor>;
 using ResolvedPointMass = AtLocation<PointMass>;
-using ResolvedPointLoad = AtLocation<PointLoad>;
-using ResolvedDistributedLoad = OnMember<DistributedLoad>;
-using ResolvedPressureLoad = OnMember<PressureLoad>;
-using ResolvedInitialStrain = OnMember<InitialStrain>;
-using ResolvedTemperatureLoad = OnMember<TemperatureLoad>;
-using ResolvedLoad = std::variant<ResolvedPointLoad, ResolvedDistributedLoad, ResolvedPressureLoad,
-                                  ResolvedInitialStrain, SelfWeight, ResolvedTemperatureLoad>;
 using ResolvedSineImperfection = OnMember<SineImperfection>;
 using ResolvedPointsImperfection = OnMember<PointsImperfection>;
 using ResolvedImperfection =
@@ -78,7 +50,8 @@ struct ResolvedModel {
   std::vector<ResolvedSupport> supports;
   std::vector<ResolvedSpring> springs;
   std::vector<ResolvedFoundation> foundations;
-  std::vector<ResolvedLoad> loads;
+  std::vector<Action> actions;                      ///< in the order of the loads
+  std::vector<std::vector<int>> actions_on_member;  ///< indices of `actions`, one list per member
   std::vector<ResolvedImperfection> imperfections;
   std::vector<ResolvedPointMass> masses;
   Damping damping;

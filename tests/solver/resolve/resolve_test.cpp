@@ -39,7 +39,9 @@ Model with_references() {
 }
 
 TEST(Resolve, FindsWhatEachFieldNames) {
-  const ResolvedModel model = resolve(with_references());
+  Model given = with_references();
+  given.loads.clear();
+  const ResolvedModel model = resolve(given);
   EXPECT_EQ(model.members[0].start, 1);
   EXPECT_EQ(model.members[0].end, 0);
   EXPECT_EQ(model.members[0].section, 1);
@@ -59,16 +61,55 @@ TEST(Resolve, FindsWhatEachFieldNames) {
   EXPECT_EQ(model.monitors[0].at.node, 0);
 }
 
-TEST(Resolve, KeepsTheOrderAndTheAmountsOfLoadsAndImperfections) {
-  const ResolvedModel model = resolve(with_references());
-  ASSERT_EQ(model.loads.size(), 6U);
-  EXPECT_EQ(std::get<ResolvedPointLoad>(model.loads[0]).at.node, 0);
-  EXPECT_EQ(std::get<ResolvedPointLoad>(model.loads[0]).force[1], 2.0);
-  EXPECT_EQ(std::get<ResolvedDistributedLoad>(model.loads[1]).member, 1);
-  EXPECT_EQ(std::get<ResolvedPressureLoad>(model.loads[2]).member, 0);
-  EXPECT_EQ(std::get<ResolvedInitialStrain>(model.loads[3]).axial, 1e-3);
-  EXPECT_EQ(std::get<SelfWeight>(model.loads[4]).gravity[1], -9.81);
-  EXPECT_EQ(std::get<ResolvedTemperatureLoad>(model.loads[5]).member, 0);
+TEST(Resolve, MakesBasicActionsOfLoadsInTheirOrder) {
+  Model given = with_references();
+  for (Section& section : given.sections) {
+    section.mass = section.id == "stiff" ? 3.0 : 2.0;
+    section.expansion = 1e-5;
+  }
+  const ResolvedModel model = resolve(given);
+  ASSERT_EQ(model.actions.size(), 7U);  // a weight for each of two members
+  EXPECT_EQ(std::get<PointAction>(model.actions[0].what).at.node, 0);
+  EXPECT_EQ(std::get<PointAction>(model.actions[0].what).force[1], 2.0);
+  const auto& line = std::get<LineAction>(model.actions[1].what);
+  EXPECT_EQ(line.member, 1);
+  ASSERT_EQ(line.pieces.size(), 1U);
+  EXPECT_EQ(line.pieces[0].at(0.3)[1], -1.0);
+  EXPECT_EQ(std::get<PressureAction>(model.actions[2].what).member, 0);
+  EXPECT_EQ(std::get<StrainAction>(model.actions[3].what).axial, 1e-3);
+  for (const std::size_t member : {0U, 1U}) {
+    const auto& weight = std::get<LineAction>(model.actions[4 + member].what);
+    EXPECT_EQ(weight.member, static_cast<int>(member));
+    EXPECT_EQ(weight.pieces[0].at(0.5)[1],
+              *model.section_of(model.members[member]).mass == AlongMember(3.0) ? -9.81 * 3.0 : -9.81 * 2.0);
+    EXPECT_EQ(model.actions[4 + member].load, 4);
+  }
+  EXPECT_EQ(std::get<StrainAction>(model.actions[6].what).axial, 20.0 * 1e-5);
+  EXPECT_EQ(model.actions[6].name, "the temperature of member \"second\"");
+  EXPECT_EQ(model.actions_on_member, (std::vector<std::vector<int>>{{2, 4, 6}, {1, 3, 5}}));
+}
+
+/// Pieces of a force that is given along a member end where the force bends inside its range, and nowhere
+/// else.
+TEST(Resolve, DividesLineActionsWhereTheirForceBends) {
+  Model given = with_references();
+  DistributedLoad load{"first", {0.0, 0.0}, {0.2, 0.6}};
+  load.force_along = {{0.0, {0.0, 0.0}}, {0.4, {0.0, 4.0}}, {0.8, {0.0, 4.0}}};
+  given.loads = {load};
+  const ResolvedModel model = resolve(given);
+  const auto& line = std::get<LineAction>(model.actions[0].what);
+  ASSERT_EQ(line.pieces.size(), 2U);
+  EXPECT_EQ(line.pieces[0].range, (std::array{0.2, 0.4}));
+  EXPECT_EQ(line.pieces[0].from[1], 2.0);
+  EXPECT_EQ(line.pieces[0].to[1], 4.0);
+  EXPECT_EQ(line.pieces[1].range, (std::array{0.4, 0.6}));
+  EXPECT_EQ(line.pieces[1].at(0.5)[1], 4.0);
+}
+
+TEST(Resolve, FindsTheMembersOfImperfections) {
+  Model given = with_references();
+  given.loads.clear();
+  const ResolvedModel model = resolve(given);
   ASSERT_EQ(model.imperfections.size(), 2U);
   EXPECT_EQ(std::get<ResolvedSineImperfection>(model.imperfections[0]).member, 1);
   EXPECT_EQ(std::get<ResolvedPointsImperfection>(model.imperfections[1]).member, 0);

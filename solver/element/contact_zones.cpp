@@ -1,11 +1,11 @@
-#pragma once
-/// @file
-/// Contact zones of ElementSetOf. Included by element_data.h only.
-
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
+#include "solver/element/element_contacts.h"
+
 namespace snapthrough {
+namespace {
 
 /// What counts as zero beside zones of contact. Source: docs/decisions/0016.
 struct ZoneTolerances {
@@ -14,10 +14,8 @@ struct ZoneTolerances {
   static constexpr double joined = 1e-9;  ///< distance between two zones that are one, in element lengths
 };
 
-namespace zones {
-
 /// Appends a zone, or extends the last one if both meet at an element boundary.
-inline void append(const MovingZone& zone, double rounding, std::vector<MovingZone>& list) {
+void append(const MovingZone& zone, double rounding, std::vector<MovingZone>& list) {
   if (list.empty() || zone.from - list.back().to > rounding) {
     list.push_back(zone);
     return;
@@ -48,32 +46,30 @@ void for_each_difference(const std::vector<ElementPart>& a, const std::vector<El
   }
 }
 
-}  // namespace zones
+}  // namespace
 
-template <int P>
-double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const {
+double ElementContacts::missed(const FrozenContact& frozen, const Eigen::VectorXd& y) const {
   struct Missed {
     double length, pressure;
   };
   std::vector<Missed> missed;
   std::vector<ElementPart> parts;
-  LayerParts on_layers = data_.parts_on_layers(y.data());
+  LayerParts on_layers = parts_on_layers(y.data());
   double largest = 0.0;
-  for (int e = 0; e < size(); ++e) {
-    const auto& shape = data_.shapes[e];
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
-      const FoundationContact& contact = data_.contacts[i];
-      const auto u = data_.displacement_of(contact, shape, data_.dofs[e], y.data());
+  for (const Element& element : elements_) {
+    for (std::size_t i = element.first; i < element.end; ++i) {
+      const FoundationContact& contact = contacts_[i];
+      const DisplacementOnGround u = displacement(contact, element, y.data());
       const auto pressure = [&](const ElementPart& part) {
-        return contact.law().stiffness / shape.h *
-               std::abs(contact.penetration(0.5 * (part.from + part.to), u.start, u.dx, u.dy));
+        return contact.law().stiffness / element.length *
+               std::abs(contact.penetration(0.5 * (part.from + part.to), u.start, u.dx(), u.dy()));
       };
       if (contact.has_layer())
         parts = std::move(on_layers[i]);
       else
-        data_.acting_parts(i, u, parts);
+        acting_parts(i, u.start, u.dx(), u.dy(), parts);
       for (const ElementPart& part : parts) largest = std::max(largest, pressure(part));
-      zones::for_each_difference(parts, frozen.contacts[i], [&](const ElementPart& part) {
+      for_each_difference(parts, frozen.contacts[i], [&](const ElementPart& part) {
         missed.push_back({part.to - part.from, pressure(part)});
       });
     }
@@ -84,53 +80,49 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
   return sum;
 }
 
-template <int P>
-MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
+MovingZones ElementContacts::moving_zones(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
   MovingZones out;
   std::vector<ElementPart> parts;
   double start = 0.0;
-  for (int e = 0; e < size(); ++e) {
-    const auto& shape = data_.shapes[e];
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
-      const FoundationContact& contact = data_.contacts[i];
+  for (const Element& element : elements_) {
+    const double h = element.length;
+    for (std::size_t i = element.first; i < element.end; ++i) {
+      const FoundationContact& contact = contacts_[i];
       if (contact.has_layer()) continue;
-      const auto u = data_.displacement_of(contact, shape, data_.dofs[e], y.data());
-      const auto v = data_.displacement_of(contact, shape, data_.dofs[e], rate.data());
+      const DisplacementOnGround u = displacement(contact, element, y.data());
+      const DisplacementOnGround v = displacement(contact, element, rate.data());
       const auto moves = [&](double xi, double end) {
         if (xi == end) return 0.0;
-        const auto into = contact.penetration_at(xi, contact.displacement(xi, u.start, u.dx, u.dy)).into;
-        const auto motion = contact.displacement(xi, v.start, v.dx, v.dy);
+        const auto into = contact.penetration_at(xi, contact.displacement(xi, u.start, u.dx(), u.dy())).into;
+        const auto motion = contact.displacement(xi, v.start, v.dx(), v.dy());
         const double change = into[0] * motion[0] + into[1] * motion[1];
-        const double moved = -shape.h * change / contact.penetration_slope(xi, u.start, u.dx, u.dy);
+        const double moved = -h * change / contact.penetration_slope(xi, u.start, u.dx(), u.dy());
         return std::isfinite(moved) ? moved : 0.0;
       };
       const auto index = static_cast<std::size_t>(contact.foundation());
       if (out.size() <= index) out.resize(index + 1);
-      data_.acting_parts(i, u, parts);
+      acting_parts(i, u.start, u.dx(), u.dy(), parts);
       for (const ElementPart& part : parts)
-        zones::append({start + shape.h * part.from, start + shape.h * part.to,
-                       moves(part.from, contact.range()[0]), moves(part.to, contact.range()[1])},
-                      ZoneTolerances::joined * shape.h, out[index]);
+        append({start + h * part.from, start + h * part.to, moves(part.from, contact.range()[0]),
+                moves(part.to, contact.range()[1])},
+               ZoneTolerances::joined * h, out[index]);
     }
-    start += shape.h;
+    start += h;
   }
   add_moving_layers(y, rate, out);
   return out;
 }
 
-template <int P>
-void ElementSetOf<P>::freeze_zones(const MovingZones& zones, const Eigen::VectorXd& y,
-                                   FrozenContact& out) const {
-  out.contacts.assign(data_.contacts.size(), {});
-  out.element_springs.resize(data_.springs.size());
+void ElementContacts::freeze(const MovingZones& zones, const Eigen::VectorXd& y, FrozenContact& out) const {
+  out.contacts.assign(contacts_.size(), {});
+  out.element_springs.assign(all_springs_, 0);
   double start = 0.0;
-  for (int e = 0; e < size(); ++e) {
-    const auto& shape = data_.shapes[e];
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
-      const auto [first, last] = data_.contacts[i].range();
-      for (const MovingZone& zone : zones[data_.contacts[i].foundation()]) {
-        const double from = std::max(first, (zone.from - start) / shape.h);
-        const double to = std::min(last, (zone.to - start) / shape.h);
+  for (const Element& element : elements_) {
+    for (std::size_t i = element.first; i < element.end; ++i) {
+      const auto [first, last] = contacts_[i].range();
+      for (const MovingZone& zone : zones[static_cast<std::size_t>(contacts_[i].foundation())]) {
+        const double from = std::max(first, (zone.from - start) / element.length);
+        const double to = std::min(last, (zone.to - start) / element.length);
         const double point = std::min(from, last);
         if (to > from)
           out.contacts[i].push_back({from, to});
@@ -138,10 +130,10 @@ void ElementSetOf<P>::freeze_zones(const MovingZones& zones, const Eigen::Vector
           out.contacts[i].push_back({point, point});
       }
     }
-    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
-      out.element_springs[i] = data_.acts(data_.springs[i], data_.dofs[e], y.data());
-    start += shape.h;
+    start += element.length;
   }
+  for (const OneSidedSpring& spring : springs_)
+    out.element_springs[spring.index] = acts(spring.support, y);
 }
 
 }  // namespace snapthrough
