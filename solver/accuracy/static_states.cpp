@@ -97,7 +97,7 @@ bool MeshStates::approach(StaticState& state) {
 /// it starts with softer one-sided supports.
 bool MeshStates::settle(StaticState& state) {
   if (settle_with(1.0, state)) return true;
-  if (!structure_->one_sided) return false;
+  if (!structure_->traits.one_sided) return false;
   StaticState at = state;
   double softness = 1.0;
   for (int i = 0; i < StateRefinement::most_halvings; ++i) softness /= StateRefinement::hardening;

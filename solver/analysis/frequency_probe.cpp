@@ -27,11 +27,11 @@ FrequencyProbe::FrequencyProbe(const Structure& structure, const Analysis& analy
     search_.tolerance = mesh.fixed_mesh
                             ? RowTolerance::on_given_mesh
                             : std::min(RowTolerance::most, RowTolerance::over_accuracy * mesh.accuracy);
-  if (structure.unsymmetric()) search_.tolerance = std::max(search_.tolerance, RowTolerance::unsymmetric);
+  if (!structure.traits.symmetric) search_.tolerance = std::max(search_.tolerance, RowTolerance::unsymmetric);
 }
 
 std::optional<NaturalMotions> FrequencyProbe::at(const Eigen::VectorXd& y, double lambda) {
-  if (structure_.one_sided && has_any(problem_.contact().marks_at(y))) return std::nullopt;
+  if (structure_.traits.one_sided && has_any(problem_.contact().marks_at(y))) return std::nullopt;
   NaturalMotions found = natural_motions(structure_, problem_, masses_, y, lambda, search_, columns_);
   search_.begin_with(found);
   if (!is_asked_alone_ && !(found.converged && found.complete)) return std::nullopt;
@@ -42,7 +42,7 @@ Frequencies in_units(const NaturalMotions& motions, const Structure& structure, 
   Frequencies out;
   for (const auto& square : motions.squares) {
     out.squares.push_back(square.real() * unit);
-    if (structure.unsymmetric()) out.imaginary.push_back(square.imag() * unit);
+    if (!structure.traits.symmetric) out.imaginary.push_back(square.imag() * unit);
   }
   return out;
 }

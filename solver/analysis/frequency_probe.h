@@ -21,7 +21,7 @@ class FrequencyProbe {
   /// @param structure kept by reference; must outlive this object
   /// @param analysis of type vibration: what its rows lack is told with them; of another type: how many
   /// frequencies its rows have, to a thousandth of its accuracy
-  /// @pre has_mass(model)
+  /// @pre structure.traits.has_mass
   FrequencyProbe(const Structure& structure, const Analysis& analysis);
 
   /// @param y, lambda scaled unknowns and load factor of an equilibrium

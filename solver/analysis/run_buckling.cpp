@@ -105,7 +105,7 @@ bool contact_depends_on_load(const Structure& structure) {
 /// linearised analysis is based.
 void warn_of_changed_contact(const Structure& structure, StructuralProblem& problem,
                              const LinearBuckling& buckling, Result& result) {
-  if (!structure.one_sided || !result.summary.critical_load_factor || !contact_depends_on_load(structure))
+  if (!structure.traits.one_sided || !result.summary.critical_load_factor || !contact_depends_on_load(structure))
     return;
   const auto contact = linear_contact(problem, buckling.loads.front(), result.diagnostics.factorizations);
   if (!contact) return;
@@ -308,7 +308,7 @@ void run_buckling(const Analysis& analysis, const Structure& first, Result& resu
   StructuralProblem problem(structure);
   // without one-sided supports no contact was frozen
   const ContactShares shares =
-      structure.one_sided ? shares_of(structure, problem, buckling.contact) : ContactShares{};
+      structure.traits.one_sided ? shares_of(structure, problem, buckling.contact) : ContactShares{};
   result.summary.message += contact_text(shares, structure.laws != structure.model);
   report_errors(analysis, result);
   if (!buckling.complete && buckling.negative_at_start == 0) {

@@ -99,11 +99,10 @@ PathPoint fully_loaded(const Structure& structure, StructuralProblem& problem, P
 /// flutter.
 void hand_on_stability(const Structure& structure, StructuralProblem& problem, const TraceOutcome& outcome,
                        PathStart& start) {
-  const ResolvedModel& model = *structure.model;
   PathPoint& point = *start.point;
   point.negative = count_next_to(outcome.last.negative, {point.negative, 0.0, true});
-  const bool is_linear = !structure.one_sided || !has_any(problem.contact().marks_at(point.y));
-  if (!has_mass(model) || !is_linear || !FlutterSearch(structure).flutters_at(point)) return;
+  const bool is_linear = !structure.traits.one_sided || !has_any(problem.contact().marks_at(point.y));
+  if (!structure.traits.has_mass || !is_linear || !FlutterSearch(structure).flutters_at(point)) return;
   start.grows_from = 1.0;
   for (const CriticalEvent& event : outcome.critical)
     if (event.type == CriticalType::flutter) start.grows_from = event.point.lambda;
@@ -192,7 +191,7 @@ PathStart start_of_path(const Structure& structure, StructuralProblem& problem, 
   PathStart start = start_at_equilibrium(solver, fully_loaded(structure, problem, solver, outcome.last).y,
                                          direction, outcome.last.holds);
   if (!start) fail_to_start(structure, start, result);
-  if (start && structure.unsymmetric()) hand_on_stability(structure, problem, outcome, start);
+  if (start && !structure.traits.symmetric) hand_on_stability(structure, problem, outcome, start);
   return start;
 }
 

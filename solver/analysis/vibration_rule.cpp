@@ -9,9 +9,8 @@ namespace snapthrough {
 std::function<StepVibrations(const PathPoint&, const PathPoint&)> vibration_rule(
     const Structure& structure, PointSolver& solver, double tolerance, std::optional<FlutterSearch>& flutter,
     StructuralProblem::Stage stage) {
-  const ResolvedModel& model = *structure.model;
-  if (!structure.unsymmetric()) return {};
-  if (has_mass(model)) flutter.emplace(structure, stage);
+  if (structure.traits.symmetric) return {};
+  if (structure.traits.has_mass) flutter.emplace(structure, stage);
   return [&, tolerance](const PathPoint& from, const PathPoint& to) {
     return flutter ? flutter->on_step(solver, from, to, tolerance) : divergence_on_step(solver, from, to);
   };
@@ -24,9 +23,8 @@ void warn_of_growth_at_start(const PathStart& start, Result& result) {
 }
 
 void warn_of_untested_flutter(const Structure& structure, Result& result) {
-  const ResolvedModel& model = *structure.model;
-  if (!structure.unsymmetric()) return;
-  if (has_mass(model)) {
+  if (structure.traits.symmetric) return;
+  if (structure.traits.has_mass) {
     const MassMatrix masses = make_mass_matrix(structure);
     if (has_massless_elements(masses) && follows_without_mass(structure, masses))
       result.warnings.push_back({"massless_place",

@@ -12,6 +12,7 @@
 #include "solver/discrete/build_loads.h"
 #include "solver/discrete/build_supports.h"
 #include "solver/discrete/build_unknowns.h"
+#include "solver/discrete/mass_matrix.h"
 #include "solver/discrete/stops.h"
 #include "solver/discrete/structure_laws.h"
 #include "solver/geometry/axes.h"
@@ -91,6 +92,21 @@ int free_displacements_of(const Structure& out) {
   return free;
 }
 
+/// Opposite supports of which one always acts are bilateral together, and follower pressures that cancel each other
+/// at the ends of their lines have a potential.
+ModelTraits traits_of(const Structure& structure) {
+  const auto one_sided = [](const auto& support) { return is_one_sided(support); };
+  const ResolvedModel& laws = *structure.laws;
+  ModelTraits out;
+  out.one_sided =
+      std::ranges::any_of(laws.foundations, one_sided) || std::ranges::any_of(laws.springs, one_sided);
+  out.has_curves = !structure.curves.empty();
+  out.curved_supports = out.has_curves || std::ranges::any_of(structure.foundation_laws, &FoundationLaw::follows_surface);
+  out.symmetric = structure.follower_ends.empty() && structure.follower_forces.empty();
+  out.has_mass = has_mass(*structure.model);
+  return out;
+}
+
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
 /// @param like null, or a structure with the same mesh, axes and scales, whose parts are taken over where they do
@@ -120,9 +136,7 @@ void fill(const Scales* scales, const Structure* like, Structure& out) {
   set_metric(out);
   out.monitors = monitor_rows(out);
   out.elements = std::move(elements);
-  const auto one_sided = [](const auto& support) { return is_one_sided(support); };
-  out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
-                  std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
+  out.traits = traits_of(out);
   out.has_constant = loads.is_moved_by_constant_actions();
   set_critical_loads(out);
   out.free_displacements = free_displacements_of(out);

@@ -3,7 +3,6 @@
 /// A model on a mesh in scaled units: the data of the equilibrium problem.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "solver/mesh/dof_map.h"
 #include "solver/mesh/mesh.h"
 #include "solver/model/analysis.h"
+#include "solver/model/model_traits.h"
 #include "solver/model/scales.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/support/law.h"
@@ -129,19 +129,12 @@ struct Structure {
   std::vector<std::string> skipped;
   std::vector<FollowerEnd> follower_ends;
   std::vector<FollowerForce> follower_forces;
-  /// Whether some load has no potential, so that the tangent is not symmetric.
-  [[nodiscard]] bool unsymmetric() const { return !follower_ends.empty() || !follower_forces.empty(); }
   std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member by its smallest EI
   std::vector<double> foundation_loads;  ///< increase by foundations, largest EI: 2 sqrt(K EI) + G
   TouchingSupports touching;             ///< empty unless touching supports were searched for
-  bool one_sided = false;                ///< some foundation or spring is not bilateral
   /// Curves to which the laws of the elements and nodes refer.
   std::vector<std::shared_ptr<const ReactionCurve>> curves;
-  /// Whether the tangent of some support changes with the displacements: a law with a curve, or a surface.
-  [[nodiscard]] bool curved() const {
-    return !curves.empty() || std::any_of(foundation_laws.begin(), foundation_laws.end(),
-                                          [](const FoundationLaw& law) { return law.follows_surface(); });
-  }
+  ModelTraits traits;
   bool has_constant = false;  ///< constant actions cause displacements
   std::stop_token stop;       ///< cancels computations on the structure
   /// Node motions (x, y, rotation each, scaled) that only one-sided supports can resist; orthonormal columns.

@@ -282,12 +282,12 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   out.is_mechanism = !pencil.holds_are_idle(reference);
   if (out.is_mechanism) return out;
   const TouchingMarks& marks = pencil.marks();
-  out.touches = structure.one_sided && structure.free_motions.cols() == 0 && has_any(marks);
+  out.touches = structure.traits.one_sided && structure.free_motions.cols() == 0 && has_any(marks);
   if (out.touches) out.piece = set_least_piece(problem, solver_of(pencil), marks, near, pencil.contact());
   find_loads(pencil, count, out);
   for (const double load : out.loads)
     out.compressions.push_back(compressions_of(structure, pencil.stress(load)));
-  if (!structure.curves.empty() && !out.loads.empty()) out.prestress = pencil.stress(out.loads.front());
+  if (structure.traits.has_curves && !out.loads.empty()) out.prestress = pencil.stress(out.loads.front());
   out.factorizations = pencil.factorizations();
   out.marks = marks;
   out.contact = std::move(pencil.contact());

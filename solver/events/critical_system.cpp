@@ -298,7 +298,7 @@ bool CriticalNewton::converged() {
 /// Whether the solution satisfies equilibrium. Tested when the state is reported (to rounding), or when
 /// one-sided supports exist, because even a small last correction may change the contact.
 bool CriticalNewton::balances() {
-  if (!problem_.one_sided() && !options_.to_rounding) return true;
+  if (!problem_.traits().one_sided && !options_.to_rounding) return true;
   problem_.residual(at_.y, at_.lambda, residual_);
   VectorXd column(at_.y.size());
   for (Index i = 0; i < at_.unfolding.size(); ++i) {
@@ -307,7 +307,7 @@ bool CriticalNewton::balances() {
   }
   const double size = problem_.relative_residual(residual_, at_.y, at_.lambda);
   const double rounding = std::max(Rounding::largest_residual, problem_.residual_rounding(at_.y, at_.lambda));
-  if (problem_.one_sided() && size > std::max(options_.largest_residual, rounding)) return false;
+  if (problem_.traits().one_sided && size > std::max(options_.largest_residual, rounding)) return false;
   const bool falls = size <= 0.5 * left_;
   left_ = size;
   if (!options_.to_rounding || !falls || size <= rounding) return true;

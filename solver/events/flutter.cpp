@@ -178,7 +178,7 @@ bool FlutterSearch::flutters_at(const PathPoint& point) {
 
 /// The first point of a step at which natural motions are those of the step.
 PathPoint FlutterSearch::beginning(PointSolver& solver, const PathPoint& from, const PathPoint& to) const {
-  if (!structure_.one_sided || !has_any(problem_.contact().marks_at(from.y))) return from;
+  if (!structure_.traits.one_sided || !has_any(problem_.contact().marks_at(from.y))) return from;
   return Segment(solver, from, to).point_at(FlutterLimits::beginning).value_or(from);
 }
 

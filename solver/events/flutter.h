@@ -46,7 +46,7 @@ class FlutterSearch {
  public:
   /// @param structure kept by reference; must outlive this object
   /// @param stage actions that the load factor multiplies
-  /// @pre structure.unsymmetric() and has_mass(model)
+  /// @pre !structure.traits.symmetric and has_mass(model)
   FlutterSearch(const Structure& structure,
                 StructuralProblem::Stage stage = StructuralProblem::Stage::proportional);
 

@@ -55,7 +55,7 @@ class Vibrations final : public Pencil {
   }
   [[nodiscard]] Index size() const override { return problem_.size(); }
   [[nodiscard]] Index rank() const override { return masses_.rank; }
-  [[nodiscard]] bool is_symmetric() const override { return !structure_.unsymmetric(); }
+  [[nodiscard]] bool is_symmetric() const override { return structure_.traits.symmetric; }
   [[nodiscard]] int factorizations() const { return factorizations_; }
 
  private:

@@ -113,7 +113,7 @@ CriticalEvent settled(PointSolver& solver, const CriticalEvent& event, Index tar
 /// one-sided supports the derivatives of the tangent may belong to a contact state that ends there.
 bool inertia_confirms(PointSolver& solver, const std::vector<CriticalEvent>& events, double apart) {
   EquilibriumProblem& problem = solver.problem();
-  if (!problem.one_sided() || events.empty()) return true;
+  if (!problem.traits().one_sided || events.empty()) return true;
   const auto negative = [&](const CriticalEvent& event, double way) {
     VectorXd residual;
     ++solver.statistics().factorizations;

@@ -43,7 +43,7 @@ bool is_between(const PointSolver& solver, const PathPoint& a, const PathPoint& 
 /// The equilibrium at a load by corrections that lower the energy, from either end of a bracket: Newton's
 /// method cycles between contact states where several supports begin to act within the bracket.
 std::optional<PathPoint> point_of_least_energy(PointSolver& solver, const LocatedRoot& bracket, double load) {
-  if (!solver.problem().one_sided()) return std::nullopt;
+  if (!solver.problem().traits().one_sided) return std::nullopt;
   for (const PathPoint* end : {&bracket.root, &bracket.before, &bracket.after}) {
     PathPoint point = *end;
     point.lambda = load;

@@ -84,7 +84,7 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
 
 std::optional<Structure> with_least_piece(const Structure& structure, StructuralProblem& problem,
                                           const PathNorm& norm, const PathStart& start, Result& result) {
-  if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
+  if (!structure.traits.one_sided || is_known(structure.touching)) return std::nullopt;
   const std::optional<PathPoint>& point = start.point;
   const bool is_loose = start.contact_flexibility_ratio > TouchingLimits::loose;
   if (point ? point->tangent_lambda <= 0.0 : structure.has_constant) return std::nullopt;

@@ -93,16 +93,16 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
                double& lambda, double dlambda, double correction, const CorrectorOutcome& out,
                Workspace& work) {
   work.trial = y + work.correction();
-  if (exact || problem.one_sided()) {
+  if (exact || problem.traits().one_sided) {
     problem.residual(work.trial, lambda + dlambda, work.residual, options.regime);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     const double rounding =
         std::max(Rounding::largest_residual, problem.residual_rounding(work.trial, lambda + dlambda));
     const double most = std::min(out.relative_residual, options.largest_residual);
-    if (problem.one_sided() && size > std::max(most, rounding))
+    if (problem.traits().one_sided && size > std::max(most, rounding))
       return correction <= NewtonLimits::omitted && out.relative_residual <= options.stagnant_residual;
     // a larger remainder requires another correction, unless residuals are smooth and no longer fall
-    const bool falls = problem.one_sided() || size <= NewtonLimits::stagnant * out.relative_residual;
+    const bool falls = problem.traits().one_sided || size <= NewtonLimits::stagnant * out.relative_residual;
     if (exact && falls && size > rounding) return false;
   }
   y.swap(work.trial);

@@ -27,7 +27,7 @@ StepOutcome PathFollower::step(const PathPoint& from, StepSize& step, PathPoint&
   to.holds = from.holds;
   to.perturbed = false;
   solver_.problem().set_holds(from.holds);
-  const bool one_sided = problem().one_sided();
+  const bool one_sided = problem().traits().one_sided;
   const double arc_rate = norm().arc_per_step(from);
   const double largest = limits_.max_step / arc_rate;
   double size = std::min(step.wanted, largest);
@@ -39,7 +39,7 @@ StepOutcome PathFollower::step(const PathPoint& from, StepSize& step, PathPoint&
     const bool forecast = one_sided && size >= limits_.kink_share * last_full_step_;
     const StepMeasures measures = try_step(solver_, predictor_, limits_, {from, sizes, forecast}, to);
     predictor_.forget_curvature();
-    const StepDecision decision = judge_step(measures, limits_, sizes, problem().may_kink());
+    const StepDecision decision = judge_step(measures, limits_, sizes, problem().traits().may_kink());
     if (decision.verdict == StepVerdict::accepted) {
       auto& counts = solver_.statistics().corrections;
       ++counts[std::min<std::size_t>(measures.corrections, counts.size() - 1)];
@@ -72,7 +72,7 @@ void PathFollower::reject(StepSize& step) {
 }
 
 void PathFollower::remember(const PathPoint& before, const PathPoint& from) {
-  predictor_.remember(norm(), before, from, took_full_step_ || !problem().one_sided());
+  predictor_.remember(norm(), before, from, took_full_step_ || !problem().traits().one_sided);
 }
 
 PathPoint PathFollower::last_point_before_kink(const PathPoint& from, double size) {
@@ -87,7 +87,7 @@ void PathFollower::limit_steps(const StepOptions& steps, double load_rate) {
 void PathFollower::reweigh_load(bool to_limit, PathPoint& point, StepSize& step) {
   const PathMetric& metric = norm().metric();
   const bool stuck = step.wanted < limits_.kink_share * last_full_step_;
-  if (!to_limit && !stuck && !problem().one_sided()) return;
+  if (!to_limit && !stuck && !problem().traits().one_sided) return;
   const double loaded = std::sqrt(metric.load_weight) * std::abs(point.lambda);
   const double moved = std::max(metric.norm(point.y, 0.0), stuck ? Gradients::tiny : Gradients::small);
   if (loaded <= FollowerFactors::load_dominates * moved) return;

@@ -280,7 +280,7 @@ void turn_where_supports_touch(PointSolver& solver, double direction, const Vect
 }  // namespace
 
 PathStart find_start(PointSolver& solver, double direction, double largest_first_load) {
-  if (!solver.problem().one_sided()) {
+  if (!solver.problem().traits().one_sided) {
     const SharedHolds soft = held_softly(solver.problem());
     const SharedHolds all =
         soft ? std::make_shared<const Holds>(Holds{soft->motions, soft->at, 1.0}) : nullptr;
@@ -300,7 +300,7 @@ PathStart start_at_equilibrium(PointSolver& solver, const VectorXd& y, double di
   const auto response = solver.response_at(start, Regime::Contact::unilateral);
   if (!response) return out;
   begin(solver, direction, *response, start);
-  if (solver.problem().one_sided()) turn_where_supports_touch(solver, direction, response->rate, start);
+  if (solver.problem().traits().one_sided) turn_where_supports_touch(solver, direction, response->rate, start);
   out.point = std::move(start);
   return out;
 }

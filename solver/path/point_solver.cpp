@@ -148,7 +148,7 @@ void PointSolver::find_first_modes(PathPoint& start) {
   problem_.linearise(start.y + Gradients::tiny * start.tangent,
                      start.lambda + Gradients::tiny * start.tangent_lambda, work_.residual);
   ++statistics_.factorizations;
-  if (!problem_.one_sided())
+  if (!problem_.traits().one_sided)
     find_modes(start, nullptr);
   else if (symmetric_)
     start.modes = modes_of_factors(problem_, start.negative, nullptr);
@@ -156,7 +156,7 @@ void PointSolver::find_first_modes(PathPoint& start) {
 
 void recorrect_to_rounding(PointSolver& solver, const PathPoint& from, PathPoint& point) {
   CorrectorOptions options = solver.options();
-  if (options.tangent_tolerance == 0.0 && !solver.problem().one_sided()) return;
+  if (options.tangent_tolerance == 0.0 && !solver.problem().traits().one_sided) return;
   options.tangent_tolerance = 0.0;
   PathPoint corrected = point;
   const double scale = std::min(solver.norm().distance(from, point), Gradients::large);

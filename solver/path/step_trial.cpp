@@ -20,7 +20,7 @@ CorrectorOptions corrector_options(const PointSolver& solver, const StepLimits& 
                                    const StepAttempt& attempt) {
   CorrectorOptions options = solver.options();
   // one-sided supports act on a structure that hardly moves under much load, too
-  if (solver.problem().one_sided())
+  if (solver.problem().traits().one_sided)
     options.displacement = std::max(
         attempt.sizes.size * solver.norm().metric().norm(attempt.from.tangent, 0.0), kRoundingResidual);
   if (attempt.sizes.size >= limits.min_growth * attempt.sizes.last_full_step) {

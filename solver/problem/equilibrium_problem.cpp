@@ -17,7 +17,7 @@ double difference_step(const EquilibriumProblem& problem, const PathDirection& a
   constexpr double kWithinContact = 1e-7;  // one-sided supports that touch still touch
   const double square = (problem.metric().array() * along.y.array().square()).sum();
   const double norm = std::sqrt(square + along.lambda * along.lambda);
-  return (problem.one_sided() ? kWithinContact : kGradient) /
+  return (problem.traits().one_sided ? kWithinContact : kGradient) /
          std::max(norm, std::numeric_limits<double>::min());
 }
 
@@ -39,6 +39,11 @@ VectorXd EquilibriumProblem::load_change(const VectorXd& y, double lambda, const
   load(y + e * along.y, lambda + e * along.lambda, after);
   load(y - e * along.y, lambda - e * along.lambda, before);
   return (after - before) / (2.0 * e);
+}
+
+const ModelTraits& EquilibriumProblem::traits() const {
+  static const ModelTraits kSmooth;
+  return kSmooth;
 }
 
 const MatrixXd& EquilibriumProblem::free_motions() const {

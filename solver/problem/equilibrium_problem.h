@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "solver/model/model_traits.h"
 #include "solver/problem/holds.h"
 #include "solver/support/regime.h"
 
@@ -54,10 +55,8 @@ class EquilibriumProblem {
   /// @brief x := J^-1 x with the factors of the last linearise(). A block of columns costs less than each
   /// alone.
   virtual void solve(Eigen::Ref<Eigen::MatrixXd> x) = 0;
-  /// Whether any support is one-sided; the response then need not be differentiable at zero load.
-  [[nodiscard]] virtual bool one_sided() const { return false; }
-  /// Whether the path may turn within less than a step: where contact changes, or at a bend of a law.
-  [[nodiscard]] virtual bool may_kink() const { return one_sided(); }
+  /// Kind of the equations. Where a support is one-sided, the response need not be differentiable at zero load.
+  [[nodiscard]] virtual const ModelTraits& traits() const;
   /// @brief Contact zones of one-sided foundations at y; their ends move as y changes at `rate`.
   [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
     return {};

@@ -43,8 +43,7 @@ class StructuralProblem final : public EquilibriumProblem {
   }
   [[nodiscard]] double residual_rounding(const Eigen::VectorXd& y, double lambda) const override;
 
-  [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
-  [[nodiscard]] bool may_kink() const override { return structure_.one_sided || !structure_.curves.empty(); }
+  [[nodiscard]] const ModelTraits& traits() const override { return structure_.traits; }
   [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
                                          const Eigen::VectorXd& rate) const override {
     return structure_.elements->contacts().moving_zones(y, rate);

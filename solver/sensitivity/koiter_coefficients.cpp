@@ -22,7 +22,7 @@ std::optional<KoiterCoefficients> koiter_coefficients(const Structure& structure
                                                       int points, int& factorisations) {
   const CriticalEvent& event = at.event;
   if (event.type != CriticalType::bifurcation || event.cause != CriticalCause::smooth ||
-      event.multiplicity > 1 || structure.unsymmetric())
+      event.multiplicity > 1 || !structure.traits.symmetric)
     return std::nullopt;
   StructuralProblem problem(structure);
   problem.set_holds(event.point.holds);

@@ -150,7 +150,7 @@ double VariationRate::mismatch(const Sides& at) const {
 
 /// Whether the one-sided rates differ, also over half the step: contact changes at the value.
 bool VariationRate::has_kink(double lambda) const {
-  if (!structure_.one_sided || way_ != 0.0) return false;
+  if (!structure_.traits.one_sided || way_ != 0.0) return false;
   const double near = std::abs(mismatch(fine_));
   return near * variation_.size > DifferenceLimits::kink * std::abs(lambda) &&
          near > DifferenceLimits::smooth_fall * std::abs(mismatch(coarse_));
@@ -174,7 +174,7 @@ Sensitivity VariationRate::find(double lambda) {
 std::optional<NoDerivative> refusal(const Structure& structure, const CriticalEvent& event) {
   if (event.cause == CriticalCause::contact) return NoDerivative::contact;
   if (event.multiplicity > 1) return NoDerivative::multiple;
-  if (structure.unsymmetric()) return NoDerivative::unsymmetric;
+  if (!structure.traits.symmetric) return NoDerivative::unsymmetric;
   return std::nullopt;
 }
 

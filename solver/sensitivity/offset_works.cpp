@@ -58,7 +58,7 @@ MotionsAt located(StructuralProblem& problem, const CriticalEvent& event, int& f
 MotionsAt motions_at(StructuralProblem& problem, const PathMetric& metric, const Structure& structure,
                      const LocatedPoint& at, int& factorisations) {
   const CriticalEvent& event = at.event;
-  const bool smooth = event.cause == CriticalCause::smooth && !structure.unsymmetric();
+  const bool smooth = event.cause == CriticalCause::smooth && structure.traits.symmetric;
   const auto point = smooth ? exact_point(problem, metric, at, factorisations) : std::nullopt;
   if (!point) return located(problem, event, factorisations);
   const BorderedPoint bordered(problem, metric, point->solution, true);

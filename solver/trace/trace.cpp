@@ -367,7 +367,7 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
 bool Tracer::begin(PathPoint& from) {
   solver_.find_first_modes(from);
   tell([&](PathObserver& observer) { observer.on_point(from); });
-  if (solver_.problem().one_sided()) first_modes_ = std::exchange(from.modes, nullptr);
+  if (solver_.problem().traits().one_sided) first_modes_ = std::exchange(from.modes, nullptr);
   grows_ = rules_.grows_at_start;
   return rules_.first_loss_of_stability && (from.negative > 0 || grows_) &&
          finish(TraceEnd::unstable_at_start, from);

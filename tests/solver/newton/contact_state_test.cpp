@@ -24,14 +24,16 @@ class Bars final : public EquilibriumProblem {
         stops_(std::move(stops)),
         forces_(Eigen::Map<Eigen::VectorXd>(forces.data(), static_cast<Eigen::Index>(forces.size()))),
         metric_(Eigen::VectorXd::Ones(forces_.size())),
-        tangent_(metric_) {}
+        tangent_(metric_) {
+    traits_.one_sided = true;
+  }
 
   bool gripped = false;   ///< a grip was asked for
   bool softened = false;  ///< softer supports were
 
   [[nodiscard]] Eigen::Index size() const override { return forces_.size(); }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
-  [[nodiscard]] bool one_sided() const override { return true; }
+  [[nodiscard]] const ModelTraits& traits() const override { return traits_; }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = forces_; }
   void solve(Eigen::Ref<Eigen::MatrixXd> x) override {
     for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = x.col(i).cwiseQuotient(tangent_).eval();
@@ -75,6 +77,7 @@ class Bars final : public EquilibriumProblem {
     return spring(i) + regime.grip * k + (regime.bilateral() || y > stop(i).gap ? k : 0.0);
   }
 
+  ModelTraits traits_;
   std::vector<double> springs_;
   std::vector<Stop> stops_;
   Eigen::VectorXd forces_;

@@ -251,9 +251,9 @@ TEST(Corrector, DoesNotEndWithACorrectionIntoOtherContact) {
   CorrectorOptions options;
   options.tangent_tolerance = 1e-2;
   const double exact = 1.0 + 1e-3 / (1.0 + kStiff);
-  problem.acts_on_one_side = true;
+  problem.kind.one_sided = true;
   EXPECT_NEAR(correct_at(problem, 0.999, 1.001, 1.0, options).y, exact, 1e-12);
-  problem.acts_on_one_side = false;  // a smooth problem would have been let go
+  problem.kind.one_sided = false;  // a smooth problem would have been let go
   EXPECT_NEAR(correct_at(problem, 0.999, 1.001, 1.0, options).y, 1.001, 1e-12);
 }
 
@@ -263,7 +263,7 @@ TEST(Corrector, FollowsTheEnergyDownhillWhereContactCycles) {
   constexpr double kStiff = 100.0;
   ScalarProblem problem([](double y) { return y + kStiff * std::clamp(y, -1.0, 1.0); },
                         [](double y) { return std::abs(y) < 1.0 ? 1.0 + kStiff : 1.0; });
-  problem.acts_on_one_side = true;
+  problem.kind.one_sided = true;
   EXPECT_EQ(correct_at(problem, 2.0, 0.0, 1.0, unbounded()).outcome.status,
             CorrectorStatus::too_many_iterations);
   const Corrected at = correct_at(problem, 2.0, 0.0, 1.0, downhill({}, 12));

@@ -16,14 +16,14 @@ class ScalarProblem final : public EquilibriumProblem {
   using Function = std::function<double(double)>;
   ScalarProblem(Function f, Function derivative) : f_(std::move(f)), derivative_(std::move(derivative)) {}
 
-  bool acts_on_one_side = false;
+  ModelTraits kind;                 ///< what traits() says
   double rounding = 0.0;            ///< what residual_rounding() says
   std::function<void(int)> before;  ///< told the number of each linearisation, from 1 on
   int linearisations = 0;
 
   [[nodiscard]] Eigen::Index size() const override { return 1; }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
-  [[nodiscard]] bool one_sided() const override { return acts_on_one_side; }
+  [[nodiscard]] const ModelTraits& traits() const override { return kind; }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = Eigen::VectorXd::Ones(1); }
   void solve(Eigen::Ref<Eigen::MatrixXd> x) override { x /= tangent_; }
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd&, double) override {

@@ -16,7 +16,6 @@ class Zones final : public EquilibriumProblem {
 
   [[nodiscard]] Eigen::Index size() const override { return 1; }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
-  [[nodiscard]] bool one_sided() const override { return true; }
   [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y, const Eigen::VectorXd&) const override {
     return {at_(y[0])};
   }

@@ -22,12 +22,13 @@ class SmallProblem final : public EquilibriumProblem {
       : gradient_(std::move(g)),
         hessian_(std::move(h)),
         load_(std::move(load)),
-        one_sided_(one_sided),
-        metric_(Eigen::VectorXd::Ones(load_.size())) {}
+        metric_(Eigen::VectorXd::Ones(load_.size())) {
+    traits_.one_sided = one_sided;
+  }
 
   [[nodiscard]] Eigen::Index size() const override { return load_.size(); }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
-  [[nodiscard]] bool one_sided() const override { return one_sided_; }
+  [[nodiscard]] const ModelTraits& traits() const override { return traits_; }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = load_; }
   /// A pivot of zero counts as rounding's, as it does in a structure's factors.
   void solve(Eigen::Ref<Eigen::MatrixXd> x) override {
@@ -62,7 +63,7 @@ class SmallProblem final : public EquilibriumProblem {
   Gradient gradient_;
   Hessian hessian_;
   Eigen::VectorXd load_;
-  bool one_sided_;
+  ModelTraits traits_;
   Eigen::VectorXd metric_;
   Eigen::MatrixXd tangent_;
 };

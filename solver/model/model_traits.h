@@ -1,0 +1,26 @@
+#pragma once
+/// @file
+/// What kind of equations a model has.
+
+namespace snapthrough {
+
+/// @brief Properties of the equilibrium equations that methods presume, or that change what they do.
+///
+/// They are found once, when a structure is built. A method asks them here, and asks nothing else about the kind
+/// of its model.
+struct ModelTraits {
+  /// Some support acts on one side only: the tangent jumps where contact begins or ends.
+  bool one_sided = false;
+  /// The law of some support has a curve, at whose bends the tangent may jump.
+  bool has_curves = false;
+  /// The tangent of some support changes with the displacements: a law with a curve, or a surface.
+  bool curved_supports = false;
+  /// All actions have a potential: the tangent is symmetric, and stability is lost by divergence alone.
+  bool symmetric = true;
+  bool has_mass = false;
+
+  /// Whether a path may turn within less than a step.
+  [[nodiscard]] bool may_kink() const { return one_sided || has_curves; }
+};
+
+}  // namespace snapthrough
