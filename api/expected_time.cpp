@@ -66,20 +66,20 @@ double bases(const Model& model, const Analysis& /*analysis*/) {
 
 double rows(const Model& /*model*/, const Analysis& analysis) {
   const auto count = static_cast<double>(std::max<std::size_t>(1, analysis.load_factors.size()));
-  return has_rows(analysis.type) ? std::log(count) : 0.0;
+  return analysis.traits().has_rows ? std::log(count) : 0.0;
 }
 
 double modes(const Model& /*model*/, const Analysis& analysis) {
-  const bool asked = analysis.type == AnalysisType::buckling || analysis.type == AnalysisType::vibration;
+  const bool asked = analysis.traits().linearised || analysis.traits().vibrates;
   return asked ? std::log(analysis.modes) : 0.0;
 }
 
 double limit_points(const Model& /*model*/, const Analysis& analysis) {
-  return analysis.type == AnalysisType::path ? std::log1p(analysis.stop.limit_points.value_or(0)) : 0.0;
+  return analysis.traits().reports_path ? std::log1p(analysis.stop.limit_points.value_or(0)) : 0.0;
 }
 
 double path_points(const Model& /*model*/, const Analysis& analysis) {
-  const bool asked = analysis.type == AnalysisType::path;
+  const bool asked = analysis.traits().reports_path;
   return asked ? std::log1p(analysis.output.path_points.value_or(0) / 100.0) : 0.0;
 }
 
@@ -98,9 +98,7 @@ double states(const Model& /*model*/, const Analysis& analysis) {
 
 /// Buckling loads of a structure with contact.
 double contact_buckling(const Model& model, const Analysis& analysis) {
-  return analysis.type == AnalysisType::buckling && std::ranges::any_of(model.foundations, is_one_sided)
-             ? 1.0
-             : 0.0;
+  return analysis.traits().linearised && std::ranges::any_of(model.foundations, is_one_sided) ? 1.0 : 0.0;
 }
 
 constexpr Term kTerms[] = {

@@ -225,7 +225,7 @@ void Sweep::spare_unused(Analysis& analysis) const {
     return one.tokens[0] == "critical_points" && (one.tokens.size() < 3 || one.tokens[2] == "mode");
   });
   output.extremes = output.extremes && looks_into("extremes");
-  const bool tells_modes = refines() && analysis.type == AnalysisType::buckling;
+  const bool tells_modes = refines() && analysis.traits().linearised;
   if (!looks_into("states") && !looks_into("buckling", "modes") && !tells_modes && !output.extremes &&
       !output.modes) {
     output.points_per_member = std::min(output.points_per_member, 2);

@@ -40,8 +40,8 @@ void report_stop(const Hooks& hooks, Result& result) {
 
 /// Load factors with requested states or rows.
 std::vector<double> asked_load_factors(const Analysis& analysis) {
-  if (has_rows(analysis.type)) return analysis.load_factors;
-  if (analysis.type == AnalysisType::buckling) return {};
+  if (analysis.traits().has_rows) return analysis.load_factors;
+  if (analysis.traits().linearised) return {};
   return analysis.output.at_load_factors;
 }
 
@@ -71,7 +71,7 @@ void analyse(const ResolvedModel& model, const Analysis& analysis, const Hooks& 
     held = held_loads(model, analysis, *balance);
   }
   // linearised buckling takes the tangent of its reference load, which it finds itself
-  const auto capacity = analysis.type == AnalysisType::buckling ? nullptr : capacity_ends(model);
+  const auto capacity = analysis.traits().linearised ? nullptr : capacity_ends(model);
   if (capacity) refuse_beyond_capacity(model, analysis, *capacity, held, result);
   if (!held.any) return give_up(analysis, held.code, *held.refusal, result);
   ModeOffsets modes;
@@ -80,7 +80,7 @@ void analyse(const ResolvedModel& model, const Analysis& analysis, const Hooks& 
   } catch (const std::runtime_error& error) {
     return give_up(analysis, "no_buckling_mode", error.what(), result);
   }
-  if (analysis.type == AnalysisType::buckling && run_exact_column(model, analysis, hooks, result)) {
+  if (analysis.traits().linearised && run_exact_column(model, analysis, hooks, result)) {
     const std::vector<std::string> absent = without_stiffness(model);
     result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), absent.begin(), absent.end());
     return;

@@ -45,10 +45,10 @@ std::int64_t least_memory(const Model& model, const Analysis& analysis) {
   }
   const std::int64_t elements = given_elements(model.members, mesh);
   // An element of order p adds p nodes with three unknowns each.
-  const bool follows = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
-  const std::int64_t more = analysis.type == AnalysisType::buckling ? kLeastBytesOfSearch
-                            : follows                               ? kLeastBytesOfPath
-                                                                    : 0;
+  const bool follows = analysis.traits().follows_path;
+  const std::int64_t more = analysis.traits().linearised ? kLeastBytesOfSearch
+                            : follows                    ? kLeastBytesOfPath
+                                                         : 0;
   return 3 * elements * mesh.order * (kLeastBytesByUnknown + more);
 }
 

@@ -119,7 +119,8 @@ double least_force_of(const Structure& structure, const VectorXd& y, double lamb
   for (const Section& section : model.sections) softest = std::min(softest, section.EI.least());
   double gradient = 0.0;
   for (const ElementDofs& dofs : structure.dofs)
-    gradient = std::max(gradient, y.segment(dofs.v, DofMap::count(structure.mesh.order)).lpNorm<Eigen::Infinity>());
+    gradient =
+        std::max(gradient, y.segment(dofs.v, DofMap::count(structure.mesh.order)).lpNorm<Eigen::Infinity>());
   const Scales& scales = structure.scales;
   const double loads = (lambda * structure.proportional_load + structure.constant_load).lpNorm<1>();
   return Rounding::force *

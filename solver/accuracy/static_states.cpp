@@ -71,7 +71,7 @@ class MeshStates {
 /// Corrects a state until its distance from the start is known; false when the residual does not fall so far,
 /// or the number of negative eigenvalues differs.
 bool MeshStates::approach(StaticState& state) {
-  problem_.set_holds(state.holds);
+  problem_.set_context(state.context);
   VectorXd y = state.y;
   double first = -1.0;
   for (int i = 0; i < StateRefinement::corrections; ++i) {
@@ -109,7 +109,7 @@ bool MeshStates::settle(StaticState& state) {
 
 /// settle() with a factor on the stiffness of one-sided supports.
 bool MeshStates::settle_with(double softness, StaticState& state) {
-  problem_.set_holds(state.holds);
+  problem_.set_context(state.context);
   VectorXd y = state.y;
   double lambda = state.lambda;
   const double size = metric_.norm(y, 0.0);

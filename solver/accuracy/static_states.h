@@ -11,7 +11,7 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
-#include "solver/problem/holds.h"
+#include "solver/problem/point_context.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/result.h"
 
@@ -19,11 +19,11 @@ namespace snapthrough {
 
 /// Equilibrium of a structure at one load factor.
 struct StaticState {
-  std::size_t row = 0;  ///< index among the requested load factors
-  Eigen::VectorXd y;    ///< scaled unknowns
-  double lambda = 0.0;  ///< scaled load factor
-  int negative = 0;     ///< negative eigenvalues of the tangent stiffness
-  SharedHolds holds;    ///< springs on motions without stiffness
+  std::size_t row = 0;   ///< index among the requested load factors
+  Eigen::VectorXd y;     ///< scaled unknowns
+  double lambda = 0.0;   ///< scaled load factor
+  int negative = 0;      ///< negative eigenvalues of the tangent stiffness
+  PointContext context;  ///< springs on motions without stiffness, and what supports remember
 };
 
 /// Function that finds the states anew on another mesh of the same model, at the rows of `states`; fewer

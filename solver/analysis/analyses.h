@@ -49,7 +49,8 @@ void run_static(const Analysis& analysis, const Structure& structure, const Held
 void run_vibration(const Analysis& analysis, const Structure& structure, const HeldRows& held,
                    const Hooks& hooks, Result& result);
 /// Runs the analysis `buckling`: linearised buckling loads about the reference load.
-void run_buckling(const Analysis& analysis, const Structure& structure, Result& result);
+/// @param first structure on the mesh to begin with
+void run_buckling(const Analysis& analysis, const Structure& first, Result& result);
 
 /// @brief Runs `buckling` for a straight column by its differential equation.
 /// @return false, with `result` unchanged, when the model is no such column or the request fixes a mesh

@@ -11,7 +11,7 @@ namespace {
 
 /// Limits of branches where the request has none. Chosen; docs/requests.md tells the first.
 struct BranchLimits {
-  static constexpr int most = 20;  ///< branches that are followed
+  static constexpr int most = 20;             ///< branches that are followed
   static constexpr double first_step = 0.02;  ///< arc length
 };
 
@@ -27,8 +27,8 @@ BranchFollower::BranchFollower(const Analysis& analysis, const Structure& struct
       loads_(loads),
       watch_(watch),
       hooks_(hooks),
-      limit_(analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2
-                                                                                        : BranchLimits::most)) {}
+      limit_(analysis.branches.limit.value_or(
+          analysis.branches.follow == Follow::first ? 2 : BranchLimits::most)) {}
 
 void BranchFollower::add(const TraceOutcome& outcome, int branch) {
   for (const CriticalEvent& event : outcome.critical) {

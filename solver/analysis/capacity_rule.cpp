@@ -45,7 +45,6 @@ bool moves_rigidly(const Mode& motion) {
 
 std::optional<CapacityRule> capacity_rule(const CapacityEnds* ends, const Structure& structure,
                                           StructuralProblem& problem, const std::vector<double>& asked) {
-  const ResolvedModel& model = *structure.model;
   if (ends == nullptr) return std::nullopt;
   constexpr double any = std::numeric_limits<double>::infinity();
   const double scale = structure.scales.load;
@@ -57,7 +56,7 @@ std::optional<CapacityRule> capacity_rule(const CapacityEnds* ends, const Struct
     if (ends->is_beyond(factor)) continue;
     rule.range = {std::min(rule.range[0], factor * scale), std::max(rule.range[1], factor * scale)};
   }
-  rule.moves_rigidly = [&structure, &model, &problem](const CriticalEvent& event) {
+  rule.moves_rigidly = [&structure, &problem](const CriticalEvent& event) {
     return moves_rigidly(mode_displacements(structure, mode_of(problem, event), CapacityLimits::points));
   };
   return rule;

@@ -21,7 +21,7 @@ struct RowTolerance {
 FrequencyProbe::FrequencyProbe(const Structure& structure, const Analysis& analysis)
     : structure_(structure), problem_(structure), masses_(make_mass_matrix(structure)) {
   const Discretization& mesh = analysis.discretization;
-  is_asked_alone_ = analysis.type == AnalysisType::vibration;
+  is_asked_alone_ = analysis.traits().vibrates;
   search_.count = is_asked_alone_ ? analysis.modes : analysis.output.frequencies;
   if (!is_asked_alone_)
     search_.tolerance = mesh.fixed_mesh

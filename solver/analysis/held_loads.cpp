@@ -53,8 +53,8 @@ HeldLoads held_loads(const ResolvedModel& model, const Analysis& analysis, const
     out.factors.assign(analysis.load_factors.size(), 1);
     return out;
   }
-  if (has_rows(analysis.type)) return held_factors(model, analysis, balance);
-  const bool buckling = analysis.type == AnalysisType::buckling;
+  if (analysis.traits().has_rows) return held_factors(model, analysis, balance);
+  const bool buckling = analysis.traits().linearised;
   std::optional<Escape> escape = balance.escape_at_start(buckling ? 1.0 : analysis.step.direction);
   std::string loads = escape ? first_loads(*escape) : "";
   if (!escape && buckling && !balance.is_proportional()) {
@@ -107,7 +107,7 @@ void refuse_beyond_capacity(const ResolvedModel& model, const Analysis& analysis
     held.any = false;
     return;
   }
-  if (has_rows(analysis.type)) refuse_rows_beyond_capacity(model, analysis, ends, held, result);
+  if (analysis.traits().has_rows) refuse_rows_beyond_capacity(model, analysis, ends, held, result);
 }
 
 std::optional<std::string> start_refusal(const ResolvedModel& model, const UnilateralBalance& balance) {

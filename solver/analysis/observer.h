@@ -17,7 +17,7 @@ class Observer {
  public:
   /// @param analysis, structure kept by reference; must outlive this object
   Observer(const Analysis& analysis, const Structure& structure)
-      : model_(*structure.model), analysis_(analysis), structure_(structure), gauge_(structure) {}
+      : analysis_(analysis), structure_(structure), gauge_(structure) {}
 
   /// Records the largest strain at scaled unknowns y and scaled load factor lambda.
   void note_strain(const Eigen::VectorXd& y, double lambda, int branch);
@@ -27,7 +27,6 @@ class Observer {
   void finish(Result& result);
 
  private:
-  const ResolvedModel& model_;
   const Analysis& analysis_;
   const Structure& structure_;
   StrainGauge gauge_;

@@ -272,7 +272,7 @@ PathPoint PathCurve::point_at(const Place& place) const {
   point.lambda = h.a * a.lambda + da * a.tangent_lambda + h.b * b.lambda + db * b.tangent_lambda;
   point.arc_length = a.arc_length + place.fraction * whole;
   point.negative = a.negative;
-  point.holds = a.holds;
+  point.context = a.context;
   set_rate(point);
   return point;
 }

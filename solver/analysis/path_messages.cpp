@@ -121,7 +121,7 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double 
 
 std::string loss_on_the_way(const Analysis& analysis, const Result& result) {
   const CriticalPoint* loss = first_loss(analysis, result.critical_points);
-  if (analysis.type != AnalysisType::path || loss == nullptr) return "";
+  if (!analysis.traits().reports_path || loss == nullptr) return "";
   return std::string("first loss of stability: ") + name_of(*loss) + " at load factor " +
          number(loss->load_factor) + "; ";
 }

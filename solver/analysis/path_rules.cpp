@@ -31,7 +31,7 @@ TraceRules rules_of(const Analysis& analysis, const Structure& structure) {
   const ResolvedModel& model = *structure.model;
   TraceRules rules;
   rules.locate = locate_options(model, analysis);
-  if (analysis.type == AnalysisType::critical) {
+  if (analysis.traits().ends_at_loss()) {
     rules.first_loss_of_stability = true;
     rules.steps = PathLimits::search_steps;
     rules.beyond_theory = [gauge = StrainGauge(structure)](const PathPoint& at) {
@@ -59,13 +59,13 @@ TraceRules rules_of(const Analysis& analysis, const Structure& structure) {
 }
 
 const SparseRow* row_of_stop(const Structure& structure, const Analysis& analysis) {
-  if (analysis.type != AnalysisType::path || !analysis.stop.monitor) return nullptr;
+  if (!analysis.traits().reports_path || !analysis.stop.monitor) return nullptr;
   return row_of(structure, analysis.stop.monitor->id);
 }
 
 void bound_negative(const Analysis& analysis, int at_start, const MonitorWatch& watch, TraceRules& rules) {
   const StopRules& stop = analysis.stop;
-  if (analysis.type != AnalysisType::path) return;
+  if (!analysis.traits().reports_path) return;
   rules.most_negative = stop.negative_eigenvalues;
   if (rules.most_negative || stop.load_factor || stop.steps) return;
   rules.most_negative = at_start + PathLimits::losses + stop.limit_points.value_or(0);

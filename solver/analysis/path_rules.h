@@ -16,8 +16,8 @@ namespace snapthrough {
 [[nodiscard]] const SparseRow* row_of_stop(const Structure& structure, const Analysis& analysis);
 
 /// @brief Limits the negative eigenvalues of a path: to the request's bound; else, without a bound on load
-/// factor or steps, to a number more than at the start plus one per requested limit point. The latter limit is
-/// suspended while the monitor of a stop rule moves.
+/// factor or steps, to a number more than at the start plus one per requested limit point. The latter limit
+/// is suspended while the monitor of a stop rule moves.
 /// @param watch must outlive `rules`
 void bound_negative(const Analysis& analysis, int at_start, const MonitorWatch& watch, TraceRules& rules);
 

@@ -17,8 +17,7 @@ bool is_balanced(const RefinedStates& refined) {
 }
 
 /// Replaces a state by that of a finer mesh.
-void replace(const Analysis& analysis, const RefinedStates& refined,
-             State& state) {
+void replace(const Analysis& analysis, const RefinedStates& refined, State& state) {
   const StaticState& at = refined.states.front();
   State finer = make_state(*refined.structure, at.y, at.lambda, analysis.output.points_per_member);
   finer.branch = state.branch;

@@ -41,7 +41,7 @@ void Recorder::begin_branch(int branch_number, std::optional<int> parent) {
   branch_ = branch_number;
   branch_points_ = 0;
   neutral_.start(branch_);
-  if (analysis_.type != AnalysisType::path) return;
+  if (!analysis_.traits().reports_path) return;
   Branch branch;
   branch.id = branch_;
   branch.parent = parent;
@@ -56,7 +56,7 @@ void Recorder::begin_branch(int branch_number, std::optional<int> parent) {
 }
 
 void Recorder::add_point(const PathPoint& point) {
-  neutral_.note(point.holds, user_load(point));
+  neutral_.note(point.context.holds, user_load(point));
   const OutputOptions& output = analysis_.output;
   if (output.states == StateOutput::all ||
       (output.states == StateOutput::every && points_ % output.every == 0))
@@ -66,7 +66,7 @@ void Recorder::add_point(const PathPoint& point) {
   if (branch_ == 0 && !result_.summary.critical_load_factor)
     observer_.add_to_extremes(point.y, point.lambda, branch_);
   if (branch_ == 0 && !analysis_.start) softest_.set_unloaded(point);
-  if (analysis_.type != AnalysisType::path) return;
+  if (!analysis_.traits().reports_path) return;
   kept_.add(point, softest_.ratio(point));
   if (output.path_points) return;
   kept_.forget_modes();
@@ -147,7 +147,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
       point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
     point.mode = mode_at(structure_, solver_.problem(), event, analysis_);
-  if (!passed_by && analysis_.type == AnalysisType::path) kept_.add_critical(event);
+  if (!passed_by && analysis_.traits().reports_path) kept_.add_critical(event);
   if (is_loss_of_stability(analysis_, point) && !result_.summary.critical_load_factor) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
@@ -160,7 +160,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
 }
 
 void Recorder::on_contact(const ContactChange& change) {
-  if (analysis_.type == AnalysisType::path) kept_.add_change(change);
+  if (analysis_.traits().reports_path) kept_.add_change(change);
   for (std::size_t i = 0; i < zones_.ids().size(); ++i) {
     if (change.before[i] == change.after[i]) continue;
     ContactEvent event;
@@ -199,7 +199,7 @@ void Recorder::finish(bool last) {
 }
 
 void Recorder::ask(TraceRules& rules) const {
-  if (analysis_.type == AnalysisType::path) rules.zones = zone_counter();
+  if (analysis_.traits().reports_path) rules.zones = zone_counter();
   if (analysis_.output.states != StateOutput::at_load_factors) return;
   for (std::size_t i = 0; i < reached_.size(); ++i)
     rules.asked.loads.push_back({i, analysis_.output.at_load_factors[i] * structure_.scales.load});
@@ -210,7 +210,7 @@ void Recorder::on_asked(std::size_t row, const PathPoint& state) {
   if (!index) return;
   reached_[row] = 1;
   asked_states_.push_back(
-      {static_cast<std::size_t>(*index), state.y, state.lambda, state.negative, state.holds});
+      {static_cast<std::size_t>(*index), state.y, state.lambda, state.negative, state.context});
 }
 
 void Recorder::on_point(const PathPoint& point) {
@@ -228,7 +228,7 @@ void Recorder::on_touching(const PathPoint& point) {
                                   " and rises again: whether two critical points lie there cannot be told"});
 }
 
-void Recorder::on_unpinned(const PathPoint& point) { neutral_.note(point.holds, user_load(point)); }
+void Recorder::on_unpinned(const PathPoint& point) { neutral_.note(point.context.holds, user_load(point)); }
 
 void Recorder::on_critical(const CriticalEvent& event) {
   add_critical(event);

@@ -39,7 +39,7 @@ class Recorder final : public PathObserver {
         neutral_(structure, result.neutral_motion),
         observer_(analysis, structure),
         reached_(analysis.output.at_load_factors.size(), 0) {
-    if (analysis.output.frequencies > 0 && analysis.type == AnalysisType::path)
+    if (analysis.output.frequencies > 0 && analysis.traits().reports_path)
       probe_.emplace(structure, analysis);
   }
 

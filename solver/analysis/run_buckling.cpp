@@ -39,16 +39,16 @@ struct LawLimits {
 };
 
 /// Bilateral part and total of a foundation's range, scaled lengths.
-struct GluedLength {
-  double glued = 0.0;
+struct BilateralLength {
+  double bilateral = 0.0;
   double all = 0.0;
 
-  [[nodiscard]] double share() const { return glued / all; }
+  [[nodiscard]] double share() const { return bilateral / all; }
 };
 
 /// Contact of one-sided supports by id; the parts of a divided foundation are summed.
 struct ContactShares {
-  std::map<std::string, GluedLength> foundations;
+  std::map<std::string, BilateralLength> foundations;
   std::map<std::string, bool> springs;  ///< by kind and id; rods are members
 };
 
@@ -60,12 +60,12 @@ ContactShares shares_of(const Structure& structure, const StructuralProblem& pro
     const ResolvedFoundation& foundation = laws.foundations[i];
     if (!is_one_sided(foundation)) continue;
     const int member = foundation.member;
-    GluedLength& length = out.foundations[foundation.id];
+    BilateralLength& length = out.foundations[foundation.id];
     length.all += (foundation.range[1] - foundation.range[0]) * structure.axes[member]->length() /
                   structure.scales.length;
     for (int e = structure.mesh.first[member]; e < structure.mesh.first[member + 1]; ++e)
-      length.glued +=
-          length_of_element(structure, e) * structure.elements->contacts().share(contact, e, static_cast<int>(i));
+      length.bilateral += length_of_element(structure, e) *
+                          structure.elements->contacts().share(contact, e, static_cast<int>(i));
   }
   const TouchingMarks all_springs{std::vector<char>(contact.contacts.size(), 0),
                                   std::vector<char>(contact.element_springs.size(), 1),
@@ -87,7 +87,7 @@ std::string percent(double share) {
 std::string contact_text(const ContactShares& shares, bool joined) {
   std::string text = joined ? "; one-sided supports that oppose one another act as bilateral ones" : "";
   for (const auto& [id, length] : shares.foundations)
-    text += "; one-sided foundation " + id + " counted as glued on " + rounded(100.0 * length.share()) +
+    text += "; one-sided foundation " + id + " counted as bilateral on " + rounded(100.0 * length.share()) +
             " % of its range";
   return text;
 }
@@ -105,7 +105,8 @@ bool contact_depends_on_load(const Structure& structure) {
 /// linearised analysis is based.
 void warn_of_changed_contact(const Structure& structure, StructuralProblem& problem,
                              const LinearBuckling& buckling, Result& result) {
-  if (!structure.traits.one_sided || !result.summary.critical_load_factor || !contact_depends_on_load(structure))
+  if (!structure.traits.one_sided || !result.summary.critical_load_factor ||
+      !contact_depends_on_load(structure))
     return;
   const auto contact = linear_contact(problem, buckling.loads.front(), result.diagnostics.factorizations);
   if (!contact) return;

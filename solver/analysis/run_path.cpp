@@ -50,8 +50,8 @@ PathOptions options_of(const Analysis& analysis) {
 
 /// Function that adds requested sensitivities and Koiter coefficients to a critical point, and shows it to
 /// the visitor; may be empty.
-Complete completer(const Analysis& analysis, const Hooks& hooks,
-                   const CriticalVisitor& visit, Result& result) {
+Complete completer(const Analysis& analysis, const Hooks& hooks, const CriticalVisitor& visit,
+                   Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter && !visit) return {};
   return [&](const Structure& structure, const PathNorm& norm, const CriticalEvent& event,
              CriticalPoint& point) {
@@ -140,7 +140,7 @@ bool follow_on(const Analysis& analysis, const Structure& structure, const Capac
   recorder.end_branch(code_of(outcome.end));
   const std::size_t primary = result.critical_points.size();
   std::string branches;
-  if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
+  if (analysis.traits().reports_path && analysis.branches.follow != Follow::primary) {
     BranchFollower followed(analysis, structure, follower, recorder, loads, watch, hooks);
     followed.add(outcome, 0);
     static_cast<void>(unless_cancelled([&] { branches = followed.run(); }));
@@ -213,7 +213,7 @@ LocateOptions locate_options(const ResolvedModel& model, const Analysis& analysi
 }
 
 double path_direction(const Analysis& analysis) {
-  return analysis.type == AnalysisType::path ? analysis.step.direction : 1.0;
+  return analysis.traits().reports_path ? analysis.step.direction : 1.0;
 }
 
 bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) {

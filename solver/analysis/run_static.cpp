@@ -60,8 +60,8 @@ class StaticRows {
 
   /// Adds a row, unless its state is no equilibrium: then its text tells by how much.
   /// @param negative number of negative eigenvalues of the tangent at y
-  /// @param holds springs on motions without stiffness at y
-  void set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds);
+  /// @param context of the state
+  void set(std::size_t index, const VectorXd& y, int negative, const PointContext& context);
   /// The states that set() refused; empty: none.
   [[nodiscard]] const std::string& refused() const { return refused_; }
   [[nodiscard]] bool has(std::size_t index) const { return rows_[index].has_value(); }
@@ -114,7 +114,7 @@ bool StaticRows::wants_state(std::size_t index) const {
   return state_loads_.contains(analysis_.load_factors[index]);
 }
 
-void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const SharedHolds& holds) {
+void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const PointContext& context) {
   const double lambda = analysis_.load_factors[index] * structure_.scales.load;
   if (const double left = imbalance(structure_, y, lambda); !(left <= StateLimits::imbalance)) {
     refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(analysis_.load_factors[index], left);
@@ -122,7 +122,7 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const S
   }
   Row row{VectorXd(static_cast<Eigen::Index>(structure_.monitors.size())),
           contact_fractions(structure_, y),
-          {index, y, lambda, negative, holds},
+          {index, y, lambda, negative, context},
           std::nullopt,
           std::nullopt};
   for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
@@ -294,7 +294,7 @@ class StaticObserver final : public PathObserver {
 
   void on_point(const PathPoint& point) override {
     softest_.set_unloaded(point);
-    neutral_.note(point.holds, point.lambda / structure_.scales.load);
+    neutral_.note(point.context.holds, point.lambda / structure_.scales.load);
   }
   void on_unpinned(const PathPoint& point) override { on_point(point); }
   void on_critical(const CriticalEvent& event) override {
@@ -306,7 +306,7 @@ class StaticObserver final : public PathObserver {
              ") from load factor " + number(event.point.lambda / structure_.scales.load) + " on"});
   }
   void on_asked(std::size_t row, const PathPoint& state) override {
-    states_.set(row, state.y, state.negative, state.holds);
+    states_.set(row, state.y, state.negative, state.context);
   }
   void on_step(const PathPoint& from, const PathPoint& to) override { softest_.add_step(from, to); }
 
@@ -347,7 +347,7 @@ bool follow(const Analysis& analysis, const Structure& structure, const Capacity
   warn_of_growth_at_start(start, result);
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (analysis.load_factors[i] == 0.0 && start.point->lambda == 0.0 && states.lacks(i))
-      states.set(i, start.point->y, start.point->negative, start.point->holds);
+      states.set(i, start.point->y, start.point->negative, start.point->context);
   if (last == 0.0) return true;
   TraceRules rules = static_rules(model, analysis, states, last, structure.scales.load);
   rules.capacity = capacity_rule(capacity, structure, problem, analysis.load_factors);
@@ -372,7 +372,7 @@ void compute(const Analysis& analysis, const Structure& structure, const Capacit
       if (!states.lacks(i)) continue;
       SharedHolds holds;
       if (const auto state = solve_linear(structure, problem, analysis.load_factors[i], holds, result)) {
-        states.set(i, state->y, state->tangent.negative, holds);
+        states.set(i, state->y, state->tangent.negative, {holds, nullptr});
         neutral.note(holds, analysis.load_factors[i]);
       } else {
         fail(result, "no_convergence",
@@ -461,7 +461,7 @@ void run_static(const Analysis& analysis, const Structure& structure, const Held
   if (finer && finer->structure.get() != &structure) {
     of_finer.emplace(analysis, *finer->structure, held.factors, visit);
     for (const StaticState& state : finer->states)
-      of_finer->set(state.row, state.y, state.negative, state.holds);
+      of_finer->set(state.row, state.y, state.negative, state.context);
     if (!result.failure && !of_finer->refused().empty()) fail(result, "no_convergence", of_finer->refused());
   }
   if (finer) report_accuracy(*finer, analysis.discretization, result);

@@ -35,8 +35,8 @@ struct Level {
   Result result;       ///< the states, as a static analysis gives them
 };
 
-Level solve_on(const Analysis& analysis,
-               std::shared_ptr<const Structure> structure, const HeldRows& held, const Hooks& hooks) {
+Level solve_on(const Analysis& analysis, std::shared_ptr<const Structure> structure, const HeldRows& held,
+               const Hooks& hooks) {
   Level out;
   out.structure = std::move(structure);
   out.rows.resize(analysis.load_factors.size());
@@ -89,8 +89,8 @@ bool compare(const Level& coarse, const Level& fine, double accuracy,
   return within;
 }
 
-Vibration vibration_at(const Analysis& analysis, const Level& level,
-                       std::size_t row, const std::vector<RankError>& errors) {
+Vibration vibration_at(const Analysis& analysis, const Level& level, std::size_t row,
+                       const std::vector<RankError>& errors) {
   const NaturalMotions& motions = *level.rows[row];
   Vibration out;
   out.load_factor = analysis.load_factors[row];
@@ -160,9 +160,8 @@ void run_vibration(const Analysis& analysis, const Structure& structure, const H
     if (now.result.failure || hooks.stop.stop_requested()) break;
     auto mesh = finer_mesh(now.structure->mesh);
     if (!mesh) break;
-    Level next =
-        solve_on(analysis, std::make_shared<const Structure>(on_mesh(structure, *std::move(mesh))),
-                 held, hooks);
+    Level next = solve_on(analysis, std::make_shared<const Structure>(on_mesh(structure, *std::move(mesh))),
+                          held, hooks);
     factorizations += next.result.diagnostics.factorizations;
     if (next.result.failure) break;
     within = compare(now, next, accuracy, errors);

@@ -189,7 +189,7 @@ PathStart start_of_path(const Structure& structure, StructuralProblem& problem, 
     return {};
   }
   PathStart start = start_at_equilibrium(solver, fully_loaded(structure, problem, solver, outcome.last).y,
-                                         direction, outcome.last.holds);
+                                         direction, outcome.last.context);
   if (!start) fail_to_start(structure, start, result);
   if (start && !structure.traits.symmetric) hand_on_stability(structure, problem, outcome, start);
   return start;

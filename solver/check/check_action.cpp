@@ -267,7 +267,7 @@ void check_something_proportional(const Place& model, const Model& data, const A
   };
   const bool something = some_grow(data.loads) || some_grow(data.supports) || some_grow(data.springs) ||
                          some_grow(data.foundations);
-  if (!something && !has_rows(analysis.type)) {
+  if (!something && !analysis.traits().has_rows) {
     (model / "loads")
         .report("no_load",
                 "nothing grows with the load factor: at least one proportional load or "

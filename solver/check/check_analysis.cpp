@@ -151,7 +151,7 @@ void check_stop(const Place& place, const StopRules& stop, const Names& names) {
 
 /// Reports reversed buckling with one-sided supports: the opposite load has another contact.
 void check_reversed(const Place& place, const Model& model, const Analysis& analysis) {
-  if (!analysis.reversed || analysis.type != AnalysisType::buckling) {
+  if (!analysis.reversed || !analysis.traits().linearised) {
     return;
   }
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
@@ -208,12 +208,12 @@ void check_output(const Place& place, const Model& model, const OutputOptions& o
 /// Reports frequencies that are asked for without masses, or where no analysis gives them.
 void check_frequencies(const Place& root, const Model& model, const Analysis& analysis, const Names& names) {
   const Place asked = root / "analysis" / "output" / "frequencies";
-  const bool vibrates = analysis.type == AnalysisType::vibration;
+  const bool vibrates = analysis.traits().vibrates;
   if (!require_between(asked, analysis.output.frequencies, 0, kMaxFrequencies)) return;
   if (!vibrates && analysis.output.frequencies == 0) return;
   if (vibrates && analysis.output.frequencies > 0)
     asked.report("unsupported", "an analysis of type vibration gives as many frequencies as modes");
-  if (analysis.type == AnalysisType::critical || analysis.type == AnalysisType::buckling)
+  if (!analysis.traits().has_rows && !analysis.traits().reports_path)
     asked.report("unsupported", "only points of a path and states of a static analysis have frequencies");
   if (!has_mass(model))
     (root / "model" / "masses")
@@ -238,7 +238,7 @@ void check_linearised(const Place& root, const Model& model, const Analysis& ana
     return point != nullptr && !is_dead(*point);
   });
   if (!follows) return;
-  if (analysis.type == AnalysisType::buckling)
+  if (analysis.traits().linearised)
     (root / "analysis" / "type")
         .report("unsupported",
                 "linearised buckling needs dead loads; type critical takes forces that follow or keep "
@@ -261,7 +261,7 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   check_reversed(place / "reversed", model, analysis);
   check_step(place / "step", analysis.step);
   if (analysis.start) {
-    if (analysis.type != AnalysisType::path) {
+    if (!analysis.traits().reports_path) {
       (place / "start").report("unsupported", "only analyses of type path begin with a given state");
     }
     check_start(place / "start", model, *analysis.start, names);
@@ -274,7 +274,8 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   require_count(place / "sensitivities", analysis.sensitivities.size(), kMaxSensitivities);
   check_frequencies(root, model, analysis, names);
   check_linearised(root, model, analysis);
-  if (analysis.type == AnalysisType::static_ && analysis.output.states == StateOutput::at_load_factors) {
+  if (analysis.traits().has_rows && !analysis.traits().vibrates &&
+      analysis.output.states == StateOutput::at_load_factors) {
     check_static_states(place / "output" / "states" / "at_load_factors", analysis);
   }
 }

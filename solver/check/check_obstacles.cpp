@@ -42,9 +42,9 @@ struct Motion {
 /// Load factors at which an analysis finds states: those of its rows, else the ends of the path's range, or a
 /// first small load.
 std::vector<double> wanted_factors(const Analysis& analysis) {
-  if (has_rows(analysis.type)) return analysis.load_factors;
-  if (analysis.type == AnalysisType::buckling) return {0.0, 1.0};
-  if (analysis.type == AnalysisType::path && analysis.stop.load_factor)
+  if (analysis.traits().has_rows) return analysis.load_factors;
+  if (analysis.traits().linearised) return {0.0, 1.0};
+  if (analysis.traits().reports_path && analysis.stop.load_factor)
     return {0.0, (*analysis.stop.load_factor)[0], (*analysis.stop.load_factor)[1]};
   return {0.0, ObstacleLimits::first_load * analysis.step.direction};
 }
@@ -125,7 +125,7 @@ void check_obstacles(const Place& root, const Model& model, const Analysis& anal
   const IdIndex members(model.members);
   const std::array origin{model.nodes.front().x, model.nodes.front().y};
   const std::vector<double> factors = wanted_factors(analysis);
-  const bool is_linear = analysis.geometry == Geometry::linear || analysis.type == AnalysisType::buckling;
+  const bool is_linear = analysis.geometry == Geometry::linear || analysis.traits().linearised;
   for (const Foundation& obstacle : model.foundations) {
     if (!is_rigid(obstacle)) continue;
     const Member& member = model.members[static_cast<std::size_t>(members.of(obstacle.member))];

@@ -18,7 +18,7 @@ void report(const Place& place, const char* what) {
 
 /// Only static analyses are possible with linear geometry, because small displacements lose no stability.
 void find_linear_path(const Place& root, const Model&, const Analysis& analysis, const char* what) {
-  if (analysis.geometry == Geometry::linear && !has_rows(analysis.type)) {
+  if (analysis.geometry == Geometry::linear && !analysis.traits().has_rows) {
     report(root / "analysis" / "geometry", what);
   }
 }

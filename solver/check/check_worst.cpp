@@ -12,7 +12,7 @@ namespace {
 
 /// Reports analyses whose path does not begin at the unloaded structure with a growing load factor.
 void check_path(const Place& place, const Analysis& analysis) {
-  if (analysis.type != AnalysisType::path) return;
+  if (!analysis.traits().reports_path) return;
   if (analysis.start)
     (place / "start")
         .report("not_supported",
@@ -33,7 +33,7 @@ void check_worst_imperfection(const Place& root, const Model& data, const Analys
     if (!std::holds_alternative<WorstImperfection>(data.imperfections[i])) continue;
     const Place place = root / "model" / "imperfections" / i;
     if (++count > 1) place.report("too_many", "a model has at most one worst imperfection");
-    if (analysis.type == AnalysisType::buckling || analysis.geometry == Geometry::linear) {
+    if (analysis.traits().linearised || analysis.geometry == Geometry::linear) {
       (place / "type")
           .report("not_supported",
                   "a worst imperfection lowers the first critical load of a path: linearised buckling and "

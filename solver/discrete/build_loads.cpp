@@ -129,7 +129,8 @@ void LoadBuilder::add(const StrainAction& load) {
 /// Sum of the magnitudes of all actions at load factor one, by which the load factor is scaled.
 double LoadBuilder::size_of_loads() const {
   double total = strain_size_;
-  for (int j = 0; j < DofMap::count(out_.nodes) + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
+  for (int j = 0; j < DofMap::count(out_.nodes) + out_.releases; ++j)
+    total += std::abs(out_.proportional_load[j]);
   for (const ElementDofs& dofs : out_.dofs)
     if (dofs.a[0] >= DofMap::count(out_.nodes))
       for (const int i : dofs.a) total += std::abs(out_.proportional_load[i]);
@@ -160,7 +161,8 @@ bool LoadBuilder::is_moved_by_constant_actions() const {
   for (int node = 0; node < out_.nodes; ++node) {
     const NodeSupport& support = out_.supports[static_cast<std::size_t>(node)];
     if (support.constant != std::array<double, 3>{}) return true;
-    Eigen::Vector2d along = Eigen::Rotation2Dd(-support.angle) * Eigen::Vector2d(DofMap::displacement(free, node));
+    Eigen::Vector2d along =
+        Eigen::Rotation2Dd(-support.angle) * Eigen::Vector2d(DofMap::displacement(free, node));
     for (int c = 0; c < 2; ++c)
       if (support.fixed[c]) along[c] = 0.0;
     DofMap::displacement(free, node) = along;

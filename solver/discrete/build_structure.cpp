@@ -65,15 +65,16 @@ void set_critical_loads(Structure& out) {
   const ResolvedModel& model = *out.model;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const double length = out.axes[m]->length();
-    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * model.section_of(model.members[m]).EI.least() /
+    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi *
+                              model.section_of(model.members[m]).EI.least() /
                               (length * length * out.scales.force));
   }
   out.foundation_loads.assign(model.members.size(), 0.0);
   for (const ResolvedFoundation& foundation : model.foundations) {
     const auto m = static_cast<std::size_t>(foundation.member);
     const double EI = model.section_of(model.members[m]).EI.largest();
-    out.foundation_loads[m] += 2.0 * std::sqrt(stiffness_on(out, foundation, foundation.member) * EI) +
-                               foundation.shear_stiffness;
+    out.foundation_loads[m] +=
+        2.0 * std::sqrt(stiffness_on(out, foundation, foundation.member) * EI) + foundation.shear_stiffness;
   }
   for (double& load : out.foundation_loads) load /= out.scales.force;
 }
@@ -92,8 +93,8 @@ int free_displacements_of(const Structure& out) {
   return free;
 }
 
-/// Opposite supports of which one always acts are bilateral together, and follower pressures that cancel each other
-/// at the ends of their lines have a potential.
+/// Opposite supports of which one always acts are bilateral together, and follower pressures that cancel each
+/// other at the ends of their lines have a potential.
 ModelTraits traits_of(const Structure& structure) {
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
   const ResolvedModel& laws = *structure.laws;
@@ -101,7 +102,8 @@ ModelTraits traits_of(const Structure& structure) {
   out.one_sided =
       std::ranges::any_of(laws.foundations, one_sided) || std::ranges::any_of(laws.springs, one_sided);
   out.has_curves = !structure.curves.empty();
-  out.curved_supports = out.has_curves || std::ranges::any_of(structure.foundation_laws, &FoundationLaw::follows_surface);
+  out.curved_supports =
+      out.has_curves || std::ranges::any_of(structure.foundation_laws, &FoundationLaw::follows_surface);
   out.symmetric = structure.follower_ends.empty() && structure.follower_forces.empty();
   out.has_mass = has_mass(*structure.model);
   return out;
@@ -109,8 +111,8 @@ ModelTraits traits_of(const Structure& structure) {
 
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
-/// @param like null, or a structure with the same mesh, axes and scales, whose parts are taken over where they do
-/// not differ
+/// @param like null, or a structure with the same mesh, axes and scales, whose parts are taken over where
+/// they do not differ
 void fill(const Scales* scales, const Structure* like, Structure& out) {
   const ResolvedModel& model = *out.model;
   std::optional<ResolvedModel> joined = with_joined_supports(model);

@@ -35,14 +35,14 @@ const Section& section_of(const ResolvedModel& model, const Mesh& mesh, int elem
 /// A contact that differs by its law alone: that of the same foundation, made for results, or of the
 /// neighbour.
 const FoundationContact* SupportBuilder::known_contact(int element, const FoundationLaw& law,
-                                                std::array<double, 2> range) const {
+                                                       std::array<double, 2> range) const {
   const FoundationContact* known = contact_in(out_.foundation_parts, element, law, range);
   if (known == nullptr && like_ != nullptr) known = contact_in(like_->foundation_parts, element, law, range);
   return known;
 }
 
 FoundationContact SupportBuilder::make_contact(int element, const FoundationLaw& foundation, int index,
-                                        std::array<double, 2> range) const {
+                                               std::array<double, 2> range) const {
   const FoundationLaw law = law_on(out_, foundation, element);
   if (const auto* known = known_contact(element, foundation, range)) return known->with_law(law, index);
   const MeshElement& e = out_.mesh.elements[element];
@@ -89,7 +89,8 @@ void SupportBuilder::add_contacts(int element, int index) {
   const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
   const auto add = [&](std::array<double, 2> fractions, Touch touch) {
     const auto range = part_of(out_.mesh.elements[element], fractions);
-    if (range[1] > range[0]) elements_->add_foundation(element, make_contact(element, law, index, range), touch);
+    if (range[1] > range[0])
+      elements_->add_foundation(element, make_contact(element, law, index, range), touch);
   };
   double from = foundation.range[0];
   for (const TouchingSupports::FoundationRange& part : out_.touching.foundations) {
@@ -122,7 +123,7 @@ void SupportBuilder::add_point_spring(int element, std::size_t index) {
 
 /// Adds the indices of foundations to the elements on which they lie.
 void SupportBuilder::add_foundations(const std::vector<ResolvedFoundation>& foundations,
-                              std::vector<int> Here::*list) {
+                                     std::vector<int> Here::*list) {
   for (std::size_t i = 0; i < foundations.size(); ++i) {
     const int member = foundations[i].member;
     const int last = place_of(out_.mesh, member, foundations[i].range[1]).element;
@@ -195,7 +196,8 @@ void SupportBuilder::add_unresolved() {
 void SupportBuilder::add_at_nodes() {
   out_.supports.assign(static_cast<std::size_t>(out_.nodes), {});
   const auto prescribe = [this](NodeSupport& node, const PrescribedDisplacement& d) {
-    const std::array<double, 3> value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y), d.rotation};
+    const std::array<double, 3> value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y),
+                                      d.rotation};
     (d.pattern == Pattern::proportional ? node.proportional : node.constant) = value;
   };
   for (const ResolvedSupport& support : model_.supports) {

@@ -16,7 +16,8 @@ int number_stops(int first, std::vector<SpringLaw>& laws) {
   return stops;
 }
 
-/// Unknowns at a node of a member's end. @param released unknown of its own rotation; -1: it turns with the node
+/// Unknowns at a node of a member's end. @param released unknown of its own rotation; -1: it turns with the
+/// node
 std::array<int, 3> end_of(int node, int released) {
   std::array<int, 3> out = DofMap::of(node);
   if (released >= 0) out[2] = released;
@@ -35,7 +36,8 @@ void number_unknowns(std::vector<SpringLaw>& equations, Structure& out) {
   const auto release = [&](bool is_released, int node, double stiffness, int& end) {
     if (!is_released) return;
     end = next++;
-    if (stiffness > 0.0) out.joints.push_back({DofMap::rotation(node), end, out.scales.scaled_rotational(stiffness)});
+    if (stiffness > 0.0)
+      out.joints.push_back({DofMap::rotation(node), end, out.scales.scaled_rotational(stiffness)});
   };
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const ResolvedMember& member = model.members[m];

@@ -135,9 +135,8 @@ void CapacityBalance::add_loads() {
   proportional_ = constant_;
   double constant = 0.0;
   double proportional = 0.0;
-  for (const Action& action : motions_.joined_model().actions) {
-    const bool is_constant = action.pattern() == Pattern::constant;
-    const LoadWork work = work_of(motions_.parts(), action);
+  for (const LoadWork& work : works_of_loads(motions_.parts())) {
+    const bool is_constant = work.pattern == Pattern::constant;
     (is_constant ? constant_ : proportional_) += on_motions(work.row);
     (is_constant ? constant : proportional) += work.size;
   }

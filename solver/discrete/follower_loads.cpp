@@ -52,7 +52,8 @@ Vec3 added(const FollowerForce& force, const Vec2& F, const Vec3& at) {
   return {now[0] - F[0], now[1] - F[1], 0.0};
 }
 
-/// Change of added() by a small change of `at`: left (right^T change).
+/// Derivative of the force that a following load adds by the displacement and rotation of its place, a matrix
+/// of rank one: left right^T.
 struct Derivative {
   Vec3 left, right;
 };

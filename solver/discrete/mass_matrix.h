@@ -44,7 +44,7 @@ template <class AnyModel>
 
 /// @brief Masses of sections, integrated over the elements exactly for sections that do not taper, and point
 /// masses.
-/// @pre has_mass(model)
+/// @pre structure.traits.has_mass
 [[nodiscard]] MassMatrix make_mass_matrix(const Structure& structure);
 
 /// @brief M times each column of `motions`: forces on the unknowns of the elements, in global axes.

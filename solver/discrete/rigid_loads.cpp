@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "solver/numeric/gauss_rule.h"
+#include "solver/resolve/pieces.h"
 
 namespace snapthrough {
 namespace {
@@ -98,17 +99,25 @@ void Summing::add(const PressureAction& load) {
 
 }  // namespace
 
-LoadWork work_of(const RigidParts& parts, const Action& action) {
-  Summing sum(parts);
-  std::visit([&sum](const auto& one) { sum.add(one); }, action.what);
-  return std::move(sum.work);
+std::vector<LoadWork> works_of_loads(const RigidParts& parts) {
+  std::vector<LoadWork> out;
+  const std::vector<Action>& actions = parts.model().actions;
+  for (std::size_t i = 0; i < actions.size();) {
+    const int load = actions[i].load;
+    Summing sum(parts);
+    sum.work.pattern = actions[i].pattern();
+    sum.work.name = actions[i].name;
+    for (; i < actions.size() && actions[i].load == load; ++i)
+      std::visit([&sum](const auto& one) { sum.add(one); }, actions[i].what);
+    out.push_back(std::move(sum.work));
+  }
+  return out;
 }
 
 RigidLoads::RigidLoads(const RigidParts& parts, Pattern pattern)
     : forces_(Eigen::VectorXd::Zero(parts.unknowns())) {
-  for (const Action& action : parts.model().actions) {
-    if (action.pattern() != pattern) continue;
-    const LoadWork work = work_of(parts, action);
+  for (const LoadWork& work : works_of_loads(parts)) {
+    if (work.pattern != pattern) continue;
     size_ += work.size;
     for (const auto& [unknown, force] : work.row) forces_[unknown] += force;
   }

@@ -17,7 +17,7 @@ void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<Reso
               const Structure& structure, std::vector<SpringLaw>& spring_laws,
               std::vector<FoundationLaw>& foundation_laws);
 
-/// Sets Structure::stiffest and Structure::stiffest_rigid. @pre scales, axes and mesh are set
+/// Sets Structure::stiffest and Structure::stiffest_rigid. @pre model, scales, axes and mesh are set
 void bound_stiffness(Structure& structure);
 
 /// @brief Largest stiffness with which a foundation acts on a member, in the model's units.

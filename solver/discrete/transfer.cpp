@@ -76,7 +76,8 @@ Eigen::MatrixXd transfer(const Structure& from, const Block& y, const Structure&
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(to.size, y.cols());
   const Eigen::Index shared = DofMap::first<Eigen::Index>(from.first_stop_node);
   out.topRows(shared) = y.topRows(shared);
-  out.middleRows(DofMap::count(to.nodes), to.releases) = y.middleRows(DofMap::count(from.nodes), from.releases);
+  out.middleRows(DofMap::count(to.nodes), to.releases) =
+      y.middleRows(DofMap::count(from.nodes), from.releases);
   for (std::size_t i = 0; to.stops > 0 && i < to.spring_laws.size(); ++i)
     if (const int old = from.spring_laws[i].force_unknown; old >= 0 && to.spring_laws[i].force_unknown >= 0)
       out.row(to.spring_laws[i].force_unknown) = y.row(old);

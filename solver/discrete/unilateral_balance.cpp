@@ -155,11 +155,11 @@ void UnilateralBalance::add_loads() {
     const VectorXd weights = seen.rowwise().norm();
     VectorXd constant = VectorXd::Zero(unknowns);
     VectorXd proportional = VectorXd::Zero(unknowns);
-    for (const Action& action : motions_.joined_model().actions) {
-      const bool is_constant = action.pattern() == Pattern::constant;
+    for (const LoadWork& load : works_of_loads(motions_.parts())) {
+      const bool is_constant = load.pattern == Pattern::constant;
       VectorXd& forces = is_constant ? constant : proportional;
       double& size = is_constant ? group.constant.size : group.proportional.size;
-      for (const auto& [unknown, force] : work_of(motions_.parts(), action).row) {
+      for (const auto& [unknown, force] : load.row) {
         forces[unknown] += force;
         size += std::abs(force) * weights[unknown];
       }

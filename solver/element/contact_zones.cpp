@@ -132,8 +132,7 @@ void ElementContacts::freeze(const MovingZones& zones, const Eigen::VectorXd& y,
     }
     start += element.length;
   }
-  for (const OneSidedSpring& spring : springs_)
-    out.element_springs[spring.index] = acts(spring.support, y);
+  for (const OneSidedSpring& spring : springs_) out.element_springs[spring.index] = acts(spring.support, y);
 }
 
 }  // namespace snapthrough

@@ -66,11 +66,12 @@ void ElementContacts::acting_parts(std::size_t contact, std::array<double, 2> st
 void ElementContacts::freeze(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const {
   out.contacts.resize(contacts_.size());
   out.element_springs.assign(all_springs_, 0);
-  for (const Element& element : elements_)
+  for (const Element& element : elements_) {
     for (std::size_t i = element.first; i < element.end; ++i) {
       const DisplacementOnGround u = displacement(contacts_[i], element, y.data());
       contacts_[i].contact_intervals(u.start, u.dx(), u.dy(), out.contacts[i], -tolerance);
     }
+  }
   for (const OneSidedSpring& spring : springs_)
     out.element_springs[spring.index] = value(spring.support, y) > spring.support.law.gap - tolerance;
   freeze_layers(y, tolerance, out);
@@ -80,12 +81,12 @@ void ElementContacts::mark_touching(const Eigen::VectorXd& y, const TouchingDist
                                     TouchingMarks& out) const {
   out.contacts.assign(contacts_.size(), 0);
   out.element_springs.assign(all_springs_, 0);
-  for (const Element& element : elements_)
+  for (const Element& element : elements_) {
     for (std::size_t i = element.first; i < element.end; ++i) {
       const DisplacementOnGround u = displacement(contacts_[i], element, y.data());
-      out.contacts[i] =
-          contacts_[i].is_near(u.start, u.dx(), u.dy(), near.of(contacts_[i].law().stiffness));
+      out.contacts[i] = contacts_[i].is_near(u.start, u.dx(), u.dy(), near.of(contacts_[i].law().stiffness));
     }
+  }
   for (const OneSidedSpring& spring : springs_) {
     const Law& law = spring.support.law;
     out.element_springs[spring.index] =
@@ -114,7 +115,7 @@ void ElementContacts::set_touching(const TouchingMarks& marks, const Eigen::Vect
   auto next = springs.begin();
   for (const OneSidedSpring& spring : springs_)
     if (marks.element_springs[spring.index] != 0) out.element_springs[spring.index] = *next++;
-  for (const Element& element : elements_)
+  for (const Element& element : elements_) {
     for (std::size_t i = element.first; i < element.end; ++i) {
       if (marks.contacts[i] == 0) continue;
       const FoundationContact& contact = contacts_[i];
@@ -123,17 +124,20 @@ void ElementContacts::set_touching(const TouchingMarks& marks, const Eigen::Vect
       const DisplacementOnGround u = displacement(contact, element, mode.data());
       contact.intervals_into(u.start, u.dx(), u.dy(), out.contacts[i]);
     }
+  }
   if (mode.size() > 0) set_touching_layers(marks, mode, out);
 }
 
 std::vector<TouchingContact> ElementContacts::touching_contacts(const TouchingMarks& marks,
                                                                 const FrozenContact* frozen) const {
   std::vector<TouchingContact> out;
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    for (std::size_t i = elements_[e].first; i < elements_[e].end; ++i)
-      if (marks.contacts[i] != 0)
-        out.push_back({static_cast<int>(e), contacts_[i].foundation(), contacts_[i].range(),
-                       frozen != nullptr ? frozen->contacts[i] : std::vector<ElementPart>{}});
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    for (std::size_t i = elements_[e].first; i < elements_[e].end; ++i) {
+      if (marks.contacts[i] == 0) continue;
+      out.push_back({static_cast<int>(e), contacts_[i].foundation(), contacts_[i].range(),
+                     frozen != nullptr ? frozen->contacts[i] : std::vector<ElementPart>{}});
+    }
+  }
   return out;
 }
 

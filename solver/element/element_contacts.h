@@ -48,8 +48,8 @@ struct DisplacementOnGround {
 /// @brief Foundations on elements that are one-sided or have a law with a curve, and one-sided springs on
 /// elements.
 ///
-/// Constant once the structure is made. Vectors y are the unknowns of the structure. Lists for each contact and each
-/// spring follow the order of the calls of add_contact() and add_spring().
+/// Constant once the structure is made. Vectors y are the unknowns of the structure. Lists for each contact
+/// and each spring follow the order of the calls of add_contact() and add_spring().
 class ElementContacts {
  public:
   /// Contacts of one one-sided foundation with a shear layer, ascending.

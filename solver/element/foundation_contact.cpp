@@ -328,7 +328,8 @@ void FoundationContact::pressed_intervals(std::array<double, 2> ua, std::span<co
   for (std::size_t i = 0; i < count; ++i)
     pressure[i] = modulus() * w[i] - shear() * slopes.slope(samples_->z[i]) / length;
   out.clear();
-  search_zones(SampledGap(std::span<const double>(pressure).first(count)), samples_->z, pressure, samples_->count, range_, out);
+  search_zones(SampledGap(std::span<const double>(pressure).first(count)), samples_->z, pressure,
+               samples_->count, range_, out);
 }
 
 std::array<double, 2> FoundationContact::direction_rate(double xi) const {
@@ -357,7 +358,8 @@ void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<co
   Values g;
   penetrations(ua, dx, dy, depth, g);
   if (samples_->exact && foundation_law_.gap_along.empty())
-    search_zones(SampledGap(std::span<const double>(g).first(samples_->count)), samples_->z, g, samples_->count, range_, out);
+    search_zones(SampledGap(std::span<const double>(g).first(samples_->count)), samples_->z, g,
+                 samples_->count, range_, out);
   else
     search_zones(ExactGap(*this, ua, dx, dy, depth), samples_->z, g, samples_->count, range_, out);
 }
@@ -371,7 +373,8 @@ void FoundationContact::intervals_into(std::array<double, 2> ua, std::span<const
   out.clear();
   Values w;
   motions_into(ua, dx, dy, 0.0, w);
-  search_zones(SampledGap(std::span<const double>(w).first(samples_->count)), samples_->z, w, samples_->count, range_, out);
+  search_zones(SampledGap(std::span<const double>(w).first(samples_->count)), samples_->z, w, samples_->count,
+               range_, out);
 }
 
 std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::array<double, 2> ua,

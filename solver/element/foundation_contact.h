@@ -198,7 +198,8 @@ class FoundationContact {
   void add_knot(int knot, double sign, const Values& w, const std::array<Values, 3>& laws,
                 std::vector<KnotPlace>& out) const;
   /// a + sum_r weights_r (dx_r, dy_r).
-  [[nodiscard]] static std::array<double, 2> combined(std::array<double, 2> a, std::span<const double> weights,
+  [[nodiscard]] static std::array<double, 2> combined(std::array<double, 2> a,
+                                                      std::span<const double> weights,
                                                       std::span<const double> dx, std::span<const double> dy);
 
   [[nodiscard]] const Direction& direction() const { return foundation_law_.direction; }

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// Search of the intervals in which a sampled function is above zero. Included by the sources of FoundationContact only.
+/// Search of the intervals in which a sampled function is above zero. Included by the sources of
+/// FoundationContact only.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -155,7 +156,8 @@ void search_cell(const Gap& gap, const Sample& left, const Sample& right, double
 
 /// @brief Appends the intervals of a range in which a function g is above zero, ascending.
 /// @param gap the function of the position on the range, scaled to [0, 1]: value(), slope(), values()
-/// @param z, g samples of position and function, ascending; the first `n` count, and there is place for one more
+/// @param z, g samples of position and function, ascending; the first `n` count, and there is place for one
+/// more
 template <class Gap, class Values>
 void search_zones(const Gap& gap, const Values& z, const Values& g, int n, std::array<double, 2> range,
                   std::vector<ElementPart>& out) {
@@ -173,9 +175,11 @@ void search_zones(const Gap& gap, const Values& z, const Values& g, int n, std::
   rate[n] = 0.0;
   for (int i = 0; i + 1 < n; ++i) {
     const double width = z[i + 1] - z[i];
-    if (!zone_search::may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
-    zone_search::search_cell(gap, Sample{z[i], g[i]}, Sample{z[i + 1], g[i + 1]}, rate[i] * width / zone_search::Limits::parts,
-                rate[i + 2] * width / zone_search::Limits::parts, cross);
+    if (!zone_search::may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]})))
+      continue;
+    zone_search::search_cell(gap, Sample{z[i], g[i]}, Sample{z[i + 1], g[i + 1]},
+                             rate[i] * width / zone_search::Limits::parts,
+                             rate[i + 2] * width / zone_search::Limits::parts, cross);
   }
   if (g[n - 1] > 0.0) out.push_back({from, range[1]});
 }

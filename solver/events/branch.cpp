@@ -60,7 +60,7 @@ Direction direction_across(PointSolver& solver, const PathPoint& point) {
 
 std::optional<PathPoint> first_point_of_branch(PathFollower& follower, const CriticalEvent& bifurcation,
                                                double sign) {
-  follower.problem().set_holds(bifurcation.point.holds);
+  follower.problem().set_context(bifurcation.point.context);
   Direction direction{bifurcation.across, bifurcation.across_lambda};
   if (direction.y.size() == 0) {
     direction = direction_across(follower.solver(), bifurcation.point);

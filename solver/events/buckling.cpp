@@ -52,7 +52,8 @@ struct LoadRange {
   double largest = 0.0;  ///< last doubling
 };
 
-/// Finds the doubling below the first buckling load. @param at_start inertia at zero
+/// Finds two load factors, the larger twice the smaller, between which the first buckling load is.
+/// @param at_start inertia at zero
 LoadRange range_of_first(BucklingPencil& pencil, int at_start) {
   double first = pencil.scale();
   if (!std::isfinite(first) || first <= 0.0) first = 1.0;

@@ -83,10 +83,10 @@ bool BucklingPencil::holds_are_idle(double lambda) {
 /// Equilibrium with small displacements under the constant actions and a load factor, with unilateral contact
 /// and laws as they are, from the bilateral response; empty when it was not found.
 std::optional<VectorXd> BucklingPencil::state_at(double load) {
-  Regime glued;
-  glued.contact = Regime::Contact::bilateral;
-  VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0, glued) +
-               linear_response(StructuralProblem::Stage::proportional, load, glued);
+  Regime bilateral;
+  bilateral.contact = Regime::Contact::bilateral;
+  VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0, bilateral) +
+               linear_response(StructuralProblem::Stage::proportional, load, bilateral);
   const PathMetric metric{&structure_.metric, 0.0};
   const double size = metric.norm(y, 0.0);
   if (!(size > 0.0)) return y;
@@ -141,7 +141,8 @@ bool BucklingPencil::set_prestress(double reference) {
   const SharedHolds soft = held_softly(problem_);
   problem_.set_holds(soft);
   const double load = sense_ * reference;
-  if ((structure_.traits.one_sided || structure_.traits.curved_supports) && !freeze_contact(load)) return false;
+  if ((structure_.traits.one_sided || structure_.traits.curved_supports) && !freeze_contact(load))
+    return false;
   if (soft) {
     Regime small = regime();
     small.small_displacements = true;
@@ -159,8 +160,8 @@ VectorXd BucklingPencil::stress(double lambda) const {
   VectorXd y = VectorXd::Zero(problem_.size());
   const int p = structure_.mesh.order;
   for (const ElementDofs& dofs : structure_.dofs)
-    y.segment(dofs.s, DofMap::count(p)) =
-        constant_.segment(dofs.s, DofMap::count(p)) + sense_ * lambda * proportional_.segment(dofs.s, DofMap::count(p));
+    y.segment(dofs.s, DofMap::count(p)) = constant_.segment(dofs.s, DofMap::count(p)) +
+                                          sense_ * lambda * proportional_.segment(dofs.s, DofMap::count(p));
   return y;
 }
 

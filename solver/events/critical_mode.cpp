@@ -24,7 +24,7 @@ VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, Vector
   const auto norm = [&weights](const VectorXd& x) {
     return std::sqrt((x.array().square() * weights.array()).sum());
   };
-  problem.set_holds(point.holds);
+  problem.set_context(point.context);
   VectorXd residual;
   problem.linearise(point.y, point.lambda, residual);
   VectorXd x = std::move(start);

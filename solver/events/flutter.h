@@ -46,9 +46,9 @@ class FlutterSearch {
  public:
   /// @param structure kept by reference; must outlive this object
   /// @param stage actions that the load factor multiplies
-  /// @pre !structure.traits.symmetric and has_mass(model)
-  FlutterSearch(const Structure& structure,
-                StructuralProblem::Stage stage = StructuralProblem::Stage::proportional);
+  /// @pre structure.traits.has_mass, and not structure.traits.symmetric
+  explicit FlutterSearch(const Structure& structure,
+                         StructuralProblem::Stage stage = StructuralProblem::Stage::proportional);
 
   /// @brief Follows the natural motions between two points of a path.
   ///

@@ -13,7 +13,9 @@ namespace {
 
 /// Suspicion of hidden events. Source: docs/decisions/0022.
 struct Suspicion {
-  /// Assumed curvature of a stiffness over the mismatch of its end slopes: they change within half a step.
+  /// Coefficient of the squared distance in the bend that the stiffness of a motion may have on a step, over
+  /// the larger difference between its slope at an end and its mean slope. Assumed: the slope changes within
+  /// half of the step.
   static constexpr double curvature = 4.0;
   static constexpr double margin = 1e-3;      ///< least distance of a dip from the ends, fraction of the step
   static constexpr double same_motion = 0.7;  ///< least cosine of two points' modes that are one motion

@@ -149,11 +149,11 @@ void Search::descend(VectorXd motion) {
 LeastPiece Search::by_descent(const VectorXd& near) {
   std::vector<VectorXd> starts;
   double above = 0.0;
-  for (const bool glued : {false, true}) {
-    set_all(glued);
+  for (const bool bilateral : {false, true}) {
+    set_all(bilateral);
     const std::optional<Piece> piece = solver_.lowest();
     if (!piece) continue;
-    if (!glued) above = piece->load;
+    if (!bilateral) above = piece->load;
     starts.push_back(piece->mode);
     starts.push_back(-piece->mode);
   }

@@ -68,7 +68,8 @@ CriticalCause cause_of(const Search& search, const LocatedRoot& root, double fir
   const double share = piece.part(root.before, root.after).length() / piece.length();
   const double left = std::max(std::abs(root.value_before), std::abs(root.value_after));
   const double least = std::max(LocateLimits::jump, LocateLimits::curved * share) * std::abs(first_value);
-  return search.solver.problem().traits().one_sided && left > least ? CriticalCause::contact : CriticalCause::smooth;
+  return search.solver.problem().traits().one_sided && left > least ? CriticalCause::contact
+                                                                    : CriticalCause::smooth;
 }
 
 void add_event(Search& search, CriticalType type, const LocatedRoot& root, int before, int after) {

@@ -173,7 +173,7 @@ std::vector<CriticalEvent> bifurcations_beyond(PointSolver& solver, const PathPo
                       from.tangent_lambda < 0.0 ? static_cast<Index>(modes.size()) - 1 : 0};
   for (Index i = 0; i < guess.null.cols(); ++i)
     guess.y -= distance * metric.inner(from.tangent, 0.0, guess.null.col(i), 0.0) * guess.null.col(i);
-  solver.problem().set_holds(from.holds);
+  solver.problem().set_context(from.context);
   const PathDirection way{from.tangent, from.tangent_lambda};
   auto events = bifurcations_near(solver, guess, way, from.negative, options_for(solver, tolerance, reach));
   for (const CriticalEvent& event : events)
@@ -185,7 +185,7 @@ std::vector<CriticalEvent> bifurcations_beyond(PointSolver& solver, const PathPo
     arc += solver.norm().arc(*last, event.point);
     event.point.arc_length = arc;
     event.point.log_abs_det = from.log_abs_det;
-    event.point.holds = from.holds;
+    event.point.context = from.context;
     last = &event.point;
   }
   return events;
@@ -260,7 +260,7 @@ std::optional<CriticalEvent> critical_point_near(PointSolver& solver, const Crit
                                                  const PathPoint& at, Eigen::MatrixXd null, double reach,
                                                  double tolerance) {
   if (known.cause == CriticalCause::contact) return std::nullopt;
-  solver.problem().set_holds(at.holds);
+  solver.problem().set_context(at.context);
   CriticalGuess guess{at.y, at.lambda, std::move(null)};
   guess.target = at.tangent_lambda < 0.0 ? guess.null.cols() - 1 : 0;
   auto event = solve_event(solver, guess, known, {at.tangent, at.tangent_lambda},
@@ -268,7 +268,7 @@ std::optional<CriticalEvent> critical_point_near(PointSolver& solver, const Crit
   if (!event) return std::nullopt;
   event->point.arc_length = at.arc_length;
   event->point.log_abs_det = at.log_abs_det;
-  event->point.holds = at.holds;
+  event->point.context = at.context;
   return event;
 }
 
@@ -287,7 +287,7 @@ std::optional<CriticalEvent> crossing_between(PointSolver& solver, const Segment
   PathPoint at;
   segment.interpolate(share, at);
   const CriticalGuess guess{at.y, at.lambda, share < 0.5 ? a.modes->motions.col(i) : b.modes->motions.col(j)};
-  solver.problem().set_holds(a.holds);
+  solver.problem().set_context(a.context);
   CriticalEvent kind;
   kind.type = limit ? limit_type(a) : CriticalType::bifurcation;
   kind.negative_before = a.negative;
@@ -299,7 +299,7 @@ std::optional<CriticalEvent> crossing_between(PointSolver& solver, const Segment
   if (!(along >= 0.0 && along <= length)) return std::nullopt;
   event->point.arc_length = a.arc_length + along / length * (b.arc_length - a.arc_length);
   event->point.log_abs_det = a.log_abs_det;
-  event->point.holds = a.holds;
+  event->point.context = a.context;
   return event;
 }
 

@@ -45,8 +45,8 @@ bool still_touch(const Structure& structure, const VectorXd& from, double lambda
       correct(problem, metric, {}, lambda * metric.norm(displacement, 0.0), {}, y, lambda, work);
   if (outcome.status != CorrectorStatus::converged) return false;
   const TouchingMarks marks = problem.contact().marks_at(y);
-  return has_any(marks) && std::abs(amount(problem.contact().touching(marks, nullptr)) - amount(structure.touching)) <=
-                               TouchingLimits::lost;
+  return has_any(marks) && std::abs(amount(problem.contact().touching(marks, nullptr)) -
+                                    amount(structure.touching)) <= TouchingLimits::lost;
 }
 
 bool is_known(const TouchingSupports& touching) {
@@ -67,14 +67,14 @@ TouchingSupports least_piece(const Structure& structure, double reference, const
 }
 
 /// Whether supports touch without pressure in the response of the structure with bilateral supports.
-bool glued_touches(const Structure& structure, StructuralProblem& problem) {
+bool bilateral_touches(const Structure& structure, StructuralProblem& problem) {
   if (structure.has_constant) return false;
   const VectorXd zero = VectorXd::Zero(structure.size);
   VectorXd residual;
   VectorXd response;
-  Regime glued;
-  glued.contact = Regime::Contact::bilateral;
-  problem.linearise(zero, 0.0, residual, glued);
+  Regime bilateral;
+  bilateral.contact = Regime::Contact::bilateral;
+  problem.linearise(zero, 0.0, residual, bilateral);
   problem.load(zero, 0.0, response);
   problem.solve(response);
   return has_any(problem.contact().marks_at(structure.scales.load * response));
@@ -92,7 +92,7 @@ std::optional<Structure> with_least_piece(const Structure& structure, Structural
       point && !is_loose ? TouchingLimits::on_the_way * norm.load_scale() : structure.scales.load;
   if (point) {
     const VectorXd linear = point->y + (ahead / point->tangent_lambda) * point->tangent;
-    if (!has_any(problem.contact().marks_at(linear)) && !(is_loose && glued_touches(structure, problem)))
+    if (!has_any(problem.contact().marks_at(linear)) && !(is_loose && bilateral_touches(structure, problem)))
       return std::nullopt;
   }
   LinearBuckling buckling;

@@ -10,8 +10,8 @@ namespace snapthrough {
 
 /// @brief Maps nodes and components to unknowns: those of node 0 are first, then those of node 1, and so on.
 ///
-/// Components 0 and 1 are the displacements along x and y, component 2 is the rotation. A Gauss point has as many
-/// unknown strains, and as many section forces.
+/// Components 0 and 1 are the displacements along x and y, component 2 is the rotation. A Gauss point has as
+/// many unknown strains, and as many section forces.
 struct DofMap {
   static constexpr int components = 3;
 

@@ -164,10 +164,10 @@ void add_layered(std::vector<MeshElement>& out, const MeshElement& element, bool
 }  // namespace
 
 MeshUse mesh_use(const Analysis& analysis) {
-  if (analysis.type == AnalysisType::critical) return MeshUse::first;
-  if (analysis.type == AnalysisType::path) return MeshUse::path;
+  const AnalysisTraits kind = analysis.traits();
+  if (kind.follows_path) return kind.reports_path ? MeshUse::path : MeshUse::first;
   // several buckling modes need many elements anyway
-  const bool one_mode = analysis.type == AnalysisType::buckling && analysis.modes == 1;
+  const bool one_mode = kind.linearised && analysis.modes == 1;
   return one_mode ? MeshUse::first : MeshUse::final;
 }
 

@@ -14,11 +14,50 @@
 
 namespace snapthrough {
 
-enum class AnalysisType { buckling, critical, path, static_, vibration };
-/// Whether a type of analysis has a row for each of `load_factors`.
-[[nodiscard]] constexpr bool has_rows(AnalysisType type) {
-  return type == AnalysisType::static_ || type == AnalysisType::vibration;
+enum class AnalysisType {
+  buckling,   ///< linearised buckling loads
+  critical,   ///< the first critical load on the equilibrium path
+  path,       ///< the equilibrium path
+  static_,    ///< equilibria at given load factors
+  vibration,  ///< natural frequencies at given load factors
+};
+
+/// @brief What a kind of analysis takes and gives, one row per kind in traits_of().
+///
+/// Code that differs between kinds asks these, so that a new kind is complete with its row, its runner in
+/// solve() and its name in api/names.h; the compiler refuses the first two where they are missing.
+struct AnalysisTraits {
+  /// Loads of an eigenvalue problem about the reference load, with small displacements; no states.
+  bool linearised = false;
+  /// Has a row for each of Analysis::load_factors.
+  bool has_rows = false;
+  /// Follows the equilibrium path and locates critical points on it.
+  bool follows_path = false;
+  /// The path is in the result: points, branches, changes of contact; it obeys `step`, `stop` and `start`.
+  bool reports_path = false;
+  /// Natural frequencies are the result.
+  bool vibrates = false;
+
+  /// Whether the path ends where stability is lost first, and is no part of the result.
+  [[nodiscard]] constexpr bool ends_at_loss() const { return follows_path && !reports_path; }
+};
+
+[[nodiscard]] constexpr AnalysisTraits traits_of(AnalysisType type) {
+  switch (type) {
+    case AnalysisType::buckling:
+      return {.linearised = true};
+    case AnalysisType::critical:
+      return {.follows_path = true};
+    case AnalysisType::path:
+      return {.follows_path = true, .reports_path = true};
+    case AnalysisType::static_:
+      return {.has_rows = true};
+    case AnalysisType::vibration:
+      return {.has_rows = true, .vibrates = true};
+  }
+  return {};
 }
+
 enum class Geometry { nonlinear, linear };
 enum class FoundationRule { consistent, lumped };
 enum class ControlType { arc_length, load, displacement };
@@ -123,6 +162,8 @@ struct Analysis {
   OutputOptions output;
   std::vector<Variation> sensitivities;  ///< for the critical points of a path
   bool koiter = false;                   ///< Koiter coefficients of the bifurcations of a path
+
+  [[nodiscard]] constexpr AnalysisTraits traits() const { return traits_of(type); }
 };
 
 }  // namespace snapthrough

@@ -6,8 +6,7 @@ namespace snapthrough {
 
 /// @brief Properties of the equilibrium equations that methods presume, or that change what they do.
 ///
-/// They are found once, when a structure is built. A method asks them here, and asks nothing else about the kind
-/// of its model.
+/// They are found once, when a structure is built, and methods ask them here.
 struct ModelTraits {
   /// Some support acts on one side only: the tangent jumps where contact begins or ends.
   bool one_sided = false;
@@ -18,6 +17,9 @@ struct ModelTraits {
   /// All actions have a potential: the tangent is symmetric, and stability is lost by divergence alone.
   bool symmetric = true;
   bool has_mass = false;
+  /// Some support remembers the path to a state, so that unknowns and load factor alone do not determine its
+  /// forces.
+  bool remembers = false;
 
   /// Whether a path may turn within less than a step.
   [[nodiscard]] bool may_kink() const { return one_sided || has_curves; }

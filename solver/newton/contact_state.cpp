@@ -138,20 +138,20 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
   options.largest_residual = options.tangent_tolerance;
   Attempt attempt{problem, metric, lambda, options, work, factorisations, small_displacements};
   ContactState state;
-  ContactState glued;
+  ContactState bilateral;
   if (guess != nullptr) {
     state.y = *guess;
     if (settle(attempt, {}, state)) return state;
   }
   for (const bool bonded : {true, false}) {
     if (!first_guess(attempt, bonded, 1.0, state)) continue;
-    if (bonded) glued = state;
+    if (bonded) bilateral = state;
     if (state.y.isZero(0.0) || settle(attempt, {}, state)) return state;
   }
-  if (glued.y.size() == 0) return std::nullopt;
+  if (bilateral.y.size() == 0) return std::nullopt;
   if (harden(attempt, state)) return state;
-  if (!release_grip(attempt, glued)) return std::nullopt;
-  return glued;
+  if (!release_grip(attempt, bilateral)) return std::nullopt;
+  return bilateral;
 }
 
 }  // namespace snapthrough

@@ -54,7 +54,7 @@ bool step_along_least_energy(PointSolver& solver, const PathPoint& from, const P
   auto outcome = solver.correct_by_least_energy(size, KinkSearch::corrections, to);
   if (outcome.status != CorrectorStatus::converged && from.arc_length == 0.0) {
     // constant actions may leave parts unloaded that lie on stiff supports, as at the start of a path
-    const auto state = solver.contact_state(to.lambda, to.holds, &from.y);
+    const auto state = solver.contact_state(to.lambda, to.context.holds, &from.y);
     if (!state) return false;
     to.y = state->y;
     outcome = solver.correct_by_least_energy(size, KinkSearch::corrections, to);
@@ -104,7 +104,7 @@ PathPoint last_point_before_kink(PointSolver& solver, const StepLimits& limits, 
   Predictor by_tangent;
   PathPoint last = from;
   PathPoint probe;
-  probe.holds = from.holds;
+  probe.context = from.context;
   const double least = limits.min_step / solver.norm().arc_per_step(from);
   while ((sizes.size *= 0.5) >= least) {
     const StepMeasures measures = try_step(solver, by_tangent, limits, {last, sizes}, probe);

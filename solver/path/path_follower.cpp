@@ -24,9 +24,9 @@ PathFollower::PathFollower(EquilibriumProblem& problem, const PathOptions& optio
     : solver_(problem, options.corrector), limits_(options.step) {}
 
 StepOutcome PathFollower::step(const PathPoint& from, StepSize& step, PathPoint& to) {
-  to.holds = from.holds;
+  to.context = from.context;
   to.perturbed = false;
-  solver_.problem().set_holds(from.holds);
+  solver_.problem().set_context(from.context);
   const bool one_sided = problem().traits().one_sided;
   const double arc_rate = norm().arc_per_step(from);
   const double largest = limits_.max_step / arc_rate;

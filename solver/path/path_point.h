@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "solver/path/soft_mode.h"
-#include "solver/problem/holds.h"
+#include "solver/problem/point_context.h"
 
 namespace snapthrough {
 
@@ -22,7 +22,7 @@ struct PathPoint {
   int negative = 0;             ///< negative eigenvalues of the constrained tangent stiffness
   double log_abs_det = 0.0;     ///< log |det J| of the tangent stiffness
   bool perturbed = false;  ///< in equilibrium only without the imperfection that breaks a bifurcation here
-  SharedHolds holds;       ///< springs against free motions that are part of the equations here
+  PointContext context;    ///< what else the equations depend on here
   SharedModes modes;       ///< softest motions; null where nobody asked for them
 
   /// The determinant with its sign, over e^log_scale.

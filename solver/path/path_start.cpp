@@ -53,7 +53,7 @@ class StartFinder {
   [[nodiscard]] std::optional<PathPoint> pinned_softly(const SharedHolds& soft, SoftlyHeld& met,
                                                        PathPoint& loaded);
   [[nodiscard]] bool lower_to_own_stiffness(double& lambda);
-  void begin_unmoved(const LoadResponse& response, const LoadResponse& glued, PathPoint& start);
+  void begin_unmoved(const LoadResponse& response, const LoadResponse& bilateral, PathPoint& start);
   [[nodiscard]] std::optional<PathPoint> at_rest(PathPoint rest);
   [[nodiscard]] std::optional<PathPoint> near_small_displacements(double lambda);
   [[nodiscard]] std::optional<PathPoint> where_gaps_close(PathPoint pressed, double lambda);
@@ -88,7 +88,7 @@ bool begin_at(PointSolver& solver, double direction, PathPoint& equilibrium) {
 PathPoint StartFinder::unloaded() const {
   PathPoint point;
   point.y = VectorXd::Zero(solver_.problem().size());
-  point.holds = holds_;
+  point.context.holds = holds_;
   return point;
 }
 
@@ -104,13 +104,13 @@ bool StartFinder::is_far(const PathPoint& rest) {
 
 /// The first point at a state that the structure moved to under a very small load, corrected to rounding.
 std::optional<PathPoint> StartFinder::at_rest(PathPoint rest) {
-  rest.holds = holds_;
+  rest.context.holds = holds_;
   const auto outcome = solver_.correct_by_least_energy(norm(rest.y), StartSearch::corrections, rest);
   if (outcome.status != CorrectorStatus::converged || is_far(rest)) return std::nullopt;
   PathPoint start;
   start.y = rest.y;
   start.lambda = rest.lambda;
-  start.holds = holds_;
+  start.context.holds = holds_;
   return begin_at(solver_, direction_, start) ? std::optional(std::move(start)) : std::nullopt;
 }
 
@@ -146,11 +146,12 @@ bool StartFinder::lower_to_own_stiffness(double& lambda) {
 
 /// Begins where a small load moves the ground alone, until its gap to the structure closes: the displacements
 /// of the structure are rounding. The norm's scales are those of the structure that moves with its supports.
-void StartFinder::begin_unmoved(const LoadResponse& response, const LoadResponse& glued, PathPoint& start) {
+void StartFinder::begin_unmoved(const LoadResponse& response, const LoadResponse& bilateral,
+                                PathPoint& start) {
   LoadResponse moved = response;
   const double rounding = Rounding::displacement * moved.rate.lpNorm<Eigen::Infinity>();
   moved.rate = (moved.rate.array().abs() > rounding).select(moved.rate, 0.0);
-  solver_.norm().set_scales(solver_.problem(), glued.rate);
+  solver_.norm().set_scales(solver_.problem(), bilateral.rate);
   solver_.set_tangent(start, moved, direction_);
 }
 
@@ -159,15 +160,15 @@ void StartFinder::begin_unmoved(const LoadResponse& response, const LoadResponse
 /// under a load that closes none, and the path of another one begins where it comes to rest.
 std::optional<PathPoint> StartFinder::under_small_load() {
   PathPoint start = unloaded();
-  auto glued = solver_.response_at(start, Regime::Contact::bilateral);
-  if (!glued) return std::nullopt;
-  const double flexibility = norm(glued->rate);
+  auto bilateral = solver_.response_at(start, Regime::Contact::bilateral);
+  if (!bilateral) return std::nullopt;
+  const double flexibility = norm(bilateral->rate);
   if (flexibility == 0.0) {
-    begin(solver_, direction_, *glued, start);
+    begin(solver_, direction_, *bilateral, start);
     return start;
   }
   const double first =
-      direction_ * std::min(small_load(flexibility, solver_.problem().critical_load_scale(glued->rate)),
+      direction_ * std::min(small_load(flexibility, solver_.problem().critical_load_scale(bilateral->rate)),
                             largest_first_load_);
   double lambda = first;
   double last = std::numeric_limits<double>::infinity();
@@ -186,7 +187,7 @@ std::optional<PathPoint> StartFinder::under_small_load() {
       }
       const LoadResponse response{state->y / lambda, state->tangent};
       if (size <= Rounding::displacement * std::abs(lambda) * flexibility) {
-        begin_unmoved(response, *glued, start);
+        begin_unmoved(response, *bilateral, start);
         return start;
       }
       out_.contact_flexibility_ratio = size / std::abs(lambda * flexibility);
@@ -234,7 +235,7 @@ std::optional<PathPoint> StartFinder::pinned_softly(const SharedHolds& soft, Sof
     solver_.problem().set_holds(soft);
     met = softly_held(solver_.problem(), soft, loaded.y, loaded.lambda);
     ++solver_.statistics().factorizations;
-    start->holds = nullptr;
+    start->context.holds = nullptr;
   }
   holds_ = nullptr;
   out_.free_motion.resize(0);
@@ -254,7 +255,7 @@ PathStart StartFinder::run() {
   }
   holds_ = met.neutral;
   out_.point = under_small_load();
-  // a motion that only the loads stiffen leaves the glued structure singular
+  // a motion that only the loads stiffen leaves the structure with bilateral supports singular
   if (!out_.point && loaded.y.size() > 0) out_.point = at_rest(std::move(loaded));
   return std::move(out_);
 }
@@ -268,7 +269,7 @@ void turn_where_supports_touch(PointSolver& solver, double direction, const Vect
   PathPoint next;
   next.lambda = direction * small_load(norm, solver.norm().load_scale());
   next.y = start.y + next.lambda * response;
-  next.holds = start.holds;
+  next.context = start.context;
   const auto outcome =
       solver.correct_by_least_energy(std::abs(next.lambda) * norm, StartSearch::touch_corrections, next);
   if (outcome.status != CorrectorStatus::converged) return;
@@ -284,23 +285,24 @@ PathStart find_start(PointSolver& solver, double direction, double largest_first
     const SharedHolds soft = held_softly(solver.problem());
     const SharedHolds all =
         soft ? std::make_shared<const Holds>(Holds{soft->motions, soft->at, 1.0}) : nullptr;
-    return start_at_equilibrium(solver, VectorXd::Zero(solver.problem().size()), direction, all);
+    return start_at_equilibrium(solver, VectorXd::Zero(solver.problem().size()), direction, {all, nullptr});
   }
   solver.norm().ignore_load();
   return StartFinder(solver, direction, largest_first_load).run();
 }
 
 PathStart start_at_equilibrium(PointSolver& solver, const VectorXd& y, double direction,
-                               const SharedHolds& holds) {
+                               const PointContext& context) {
   solver.norm().ignore_load();
   PathPoint start;
   start.y = y;
-  start.holds = holds;
+  start.context = context;
   PathStart out;
   const auto response = solver.response_at(start, Regime::Contact::unilateral);
   if (!response) return out;
   begin(solver, direction, *response, start);
-  if (solver.problem().traits().one_sided) turn_where_supports_touch(solver, direction, response->rate, start);
+  if (solver.problem().traits().one_sided)
+    turn_where_supports_touch(solver, direction, response->rate, start);
   out.point = std::move(start);
   return out;
 }

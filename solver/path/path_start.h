@@ -39,7 +39,7 @@ struct PathStart {
 /// scales of the solver's norm.
 ///
 /// Where supports act on one side only there is no derivative at zero load: the tangent is then that of the
-/// contact under a very small load, which is solved from the structure glued to its supports. The load is
+/// contact under a very small load, which is solved from the structure with bilateral supports. The load is
 /// lowered until the displacement is small. A structure that moves freely until a gap closes starts where it
 /// comes to rest under that load.
 /// @param direction 1: growing load; -1: falling load
@@ -49,9 +49,9 @@ struct PathStart {
 
 /// @brief The first point of a path at a known equilibrium under constant actions, at lambda = 0. Sets the
 /// scales of the solver's norm.
-/// @param y scaled unknowns; @param holds of that state
+/// @param y scaled unknowns; @param context of that state
 [[nodiscard]] PathStart start_at_equilibrium(PointSolver& solver, const Eigen::VectorXd& y,
-                                             double direction = 1.0, const SharedHolds& holds = {});
+                                             double direction = 1.0, const PointContext& context = {});
 
 /// @brief The first point of a path at the equilibrium next to given unknowns. Sets the scales of the
 /// solver's norm.

@@ -42,12 +42,12 @@ double no_force(PointSolver& solver, const Holds& holds, const PathPoint& point)
 
 /// Stiffness of a motion with all supports bilateral, unloaded.
 double stiffness_if_bilateral(PointSolver& solver, const Eigen::VectorXd& motion) {
-  Regime glued;
-  glued.contact = Regime::Contact::bilateral;
+  Regime bilateral;
+  bilateral.contact = Regime::Contact::bilateral;
   const auto alone = std::make_shared<const Holds>(Holds{motion, Eigen::VectorXd::Zero(1), 1.0});
   ++solver.statistics().factorizations;
   const Eigen::VectorXd unloaded = Eigen::VectorXd::Zero(solver.problem().size());
-  return motion_stiffness(solver.problem(), alone, unloaded, 0.0, glued).stiffness[0];
+  return motion_stiffness(solver.problem(), alone, unloaded, 0.0, bilateral).stiffness[0];
 }
 
 /// Which motions that are pinned at a point are free: they have neither stiffness nor force there.
@@ -105,7 +105,7 @@ bool pin_free_motions(PointSolver& solver, const PathPoint& from, PathPoint& to)
   EquilibriumProblem& problem = solver.problem();
   const double scale = std::max(solver.norm().distance(from, to), kRoundingResidual);
   const auto correct_with = [&](const SharedHolds& holds, PathPoint& point) {
-    point.holds = holds;
+    point.context.holds = holds;
     return solver.correct_at_load(scale, point);
   };
   // where the structure is free, supports that it leaves may still touch it on one side, pressed by rounding
@@ -116,7 +116,7 @@ bool pin_free_motions(PointSolver& solver, const PathPoint& from, PathPoint& to)
   ++solver.statistics().factorizations;
   const MotionStiffness motions = motion_stiffness(problem, all, pinned.y, pinned.lambda);
   Eigen::MatrixXd free = marked(motions.motions, free_ones(solver, motions, force, pinned));
-  const Eigen::Index before = from.holds ? from.holds->motions.cols() : 0;
+  const Eigen::Index before = from.context.holds ? from.context.holds->motions.cols() : 0;
   if (free.cols() <= before) return false;
   const MotionStiffness secants = secant_stiffness(solver, pins(free, pinned), pinned);
   free = marked(secants.motions, free_ones(solver, secants, force, pinned));
@@ -130,18 +130,18 @@ bool pin_free_motions(PointSolver& solver, const PathPoint& from, PathPoint& to)
 }
 
 bool unpin_resisted_motions(PointSolver& solver, PathPoint& from, const PathPoint& to) {
-  if (!from.holds) return false;
-  const double force = no_force(solver, *from.holds, to);
+  if (!from.context.holds) return false;
+  const double force = no_force(solver, *from.context.holds, to);
   ++solver.statistics().factorizations;
-  const MotionStiffness pinned = motion_stiffness(solver.problem(), from.holds, to.y, to.lambda);
+  const MotionStiffness pinned = motion_stiffness(solver.problem(), from.context.holds, to.y, to.lambda);
   const std::vector<char> free = free_ones(solver, pinned, force, to);
-  solver.problem().set_holds(from.holds);
+  solver.problem().set_context(from.context);
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i] == 0 && from.arc_length == 0.0 && pinned.stiffness[static_cast<Eigen::Index>(i)] < 0.0)
       ++from.negative;  // under the smallest load already
   const Eigen::MatrixXd rest = marked(pinned.motions, free);
   if (rest.cols() == pinned.motions.cols()) return false;
-  from.holds = rest.cols() > 0 ? pins(rest, from) : nullptr;
+  from.context.holds = rest.cols() > 0 ? pins(rest, from) : nullptr;
   return true;
 }
 

@@ -43,7 +43,7 @@ PointSolver::PointSolver(EquilibriumProblem& problem, CorrectorOptions options)
     : problem_(problem), options_(options), norm_(problem.metric()) {}
 
 std::optional<LoadResponse> PointSolver::response_at(const PathPoint& point, Regime::Contact contact) {
-  problem_.set_holds(point.holds);
+  problem_.set_context(point.context);
   Regime regime;
   regime.contact = contact;
   LoadResponse out;
@@ -79,7 +79,7 @@ void PointSolver::set_tangent(PathPoint& point, const CorrectorOutcome& outcome,
 
 CorrectorOutcome PointSolver::correct_with(const SideCondition& side, double scale,
                                            const CorrectorOptions& options, PathPoint& point) {
-  problem_.set_holds(point.holds);
+  problem_.set_context(point.context);
   const auto outcome = correct(problem_, norm_.metric(), side, scale, options, point.y, point.lambda, work_);
   statistics_.factorizations += outcome.factorisations;
   statistics_.iterations += outcome.factorisations;
@@ -115,9 +115,9 @@ VectorXd PointSolver::free_motion() {
   problem_.solve(motion);
   const double size = metric.norm(motion, 0.0);
   if (size < kSingularResponse) return {};
-  Regime glued;
-  glued.contact = Regime::Contact::bilateral;
-  problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual, glued);
+  Regime bilateral;
+  bilateral.contact = Regime::Contact::bilateral;
+  problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual, bilateral);
   ++statistics_.factorizations;
   problem_.solve(held);
   if (size < kSingularResponse * metric.norm(held, 0.0)) return {};
@@ -125,7 +125,7 @@ VectorXd PointSolver::free_motion() {
 }
 
 int PointSolver::negative_at(const PathPoint& point) {
-  problem_.set_holds(point.holds);
+  problem_.set_context(point.context);
   ++statistics_.factorizations;
   return count_next_to(point.negative, problem_.linearise(point.y, point.lambda, work_.residual));
 }
@@ -144,7 +144,7 @@ void PointSolver::find_modes(PathPoint& point, const SharedModes& start) {
 }
 
 void PointSolver::find_first_modes(PathPoint& start) {
-  problem_.set_holds(start.holds);
+  problem_.set_context(start.context);
   problem_.linearise(start.y + Gradients::tiny * start.tangent,
                      start.lambda + Gradients::tiny * start.tangent_lambda, work_.residual);
   ++statistics_.factorizations;

@@ -63,8 +63,8 @@ class PointSolver {
                                                           const Eigen::VectorXd* guess,
                                                           bool small_displacements = false);
 
-  /// @brief A motion that the last factors do not resist although the structure glued to its supports would:
-  /// a part that one-sided supports touch without pressure, or not at all.
+  /// @brief A motion that the last factors do not resist although the structure with bilateral supports
+  /// would: a part that one-sided supports touch without pressure, or not at all.
   /// @return empty: every part is held. The factors are lost.
   [[nodiscard]] Eigen::VectorXd free_motion();
   /// @brief Negative eigenvalues at a point, which is factorised.

@@ -74,7 +74,7 @@ std::optional<PathPoint> Segment::point_at(double fraction) const {
 }
 
 std::optional<PathPoint> Segment::point_near(PathPoint guess) const {
-  guess.holds = from_->holds;
+  guess.context = from_->context;
   const double scale =
       std::max(distance(), direction_->by_displacement ? kRoundingResidual : Gradients::tiny);
   const auto outcome =

@@ -17,7 +17,7 @@ struct StepAttempt {
 };
 
 /// @brief Predicts and corrects the end of a step and measures it.
-/// @param to its holds are the caller's; the rest is set where the corrector converges
+/// @param to its context is the caller's; the rest is set where the corrector converges
 [[nodiscard]] StepMeasures try_step(PointSolver& solver, Predictor& predictor, const StepLimits& limits,
                                     const StepAttempt& attempt, PathPoint& to);
 

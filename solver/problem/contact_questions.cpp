@@ -14,8 +14,8 @@ namespace {
 
 /// What counts as touching without pressure; ratios. Source: docs/decisions/0009 and 0022.
 struct TouchingLimits {
-  static constexpr double distance = 1e-9;  ///< of a support, over the largest displacement
-  static constexpr double force = 1e-6;     ///< of a support, over the largest force
+  static constexpr double distance = 1e-9;  ///< distance of a support over the largest displacement
+  static constexpr double force = 1e-6;     ///< force of a support over the largest force
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace snapthrough {
 
 /// @brief Answers questions about the contact of a structure with its one-sided supports.
 ///
-/// Springs are ordered as nodes' springs, then elements' springs. A support touches without pressure where its
-/// distance is below 1e-9 of the largest displacement and its force below 1e-6 of the largest force.
+/// Springs are ordered as nodes' springs, then elements' springs. A support touches without pressure where
+/// its distance is below 1e-9 of the largest displacement and its force below 1e-6 of the largest force.
 /// Source of both: docs/decisions/0009.
 class ContactQuestions {
  public:

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "solver/model/model_traits.h"
-#include "solver/problem/holds.h"
+#include "solver/problem/point_context.h"
 #include "solver/support/regime.h"
 
 namespace snapthrough {
@@ -55,7 +55,8 @@ class EquilibriumProblem {
   /// @brief x := J^-1 x with the factors of the last linearise(). A block of columns costs less than each
   /// alone.
   virtual void solve(Eigen::Ref<Eigen::MatrixXd> x) = 0;
-  /// Kind of the equations. Where a support is one-sided, the response need not be differentiable at zero load.
+  /// Kind of the equations. Where a support is one-sided, the response need not be differentiable at zero
+  /// load.
   [[nodiscard]] virtual const ModelTraits& traits() const;
   /// @brief Contact zones of one-sided foundations at y; their ends move as y changes at `rate`.
   [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
@@ -72,6 +73,15 @@ class EquilibriumProblem {
   [[nodiscard]] virtual const Eigen::MatrixXd& free_motions() const;
   /// @brief Adds the artificial springs of `holds` to F and J from now on; null removes them.
   virtual void set_holds(const SharedHolds&) {}
+  /// @brief Takes supports as a history left them from now on; null: as nothing left them yet.
+  virtual void set_history(const SharedHistory&) {}
+  /// @brief History after the equilibrium (y, lambda) is reached from the present one. The forces at y are
+  /// the same with both.
+  [[nodiscard]] virtual SharedHistory remembered(const Eigen::VectorXd&, double) { return nullptr; }
+  void set_context(const PointContext& context) {
+    set_holds(context.holds);
+    set_history(context.history);
+  }
   /// @brief Right-hand side of solve() for unit forces along a motion of the leading unknowns (overwritten).
   virtual void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const {
     out.setZero(size());

@@ -56,8 +56,8 @@ ForceScales::ForceScales(const Structure& structure, ElementWork& elements) : st
 double ForceScales::of_rows(const VectorXd& f) const {
   double forces = f.head(DofMap::count(structure_.nodes) + structure_.releases).lpNorm<Eigen::Infinity>();
   for (const ElementDofs& dofs : structure_.dofs) {
-    forces = std::max(
-        forces, f.segment(dofs.v, DofMap::count(structure_.mesh.order)).lpNorm<Eigen::Infinity>());
+    forces =
+        std::max(forces, f.segment(dofs.v, DofMap::count(structure_.mesh.order)).lpNorm<Eigen::Infinity>());
     for (const int a : dofs.a) forces = std::max(forces, std::abs(f[a]));
   }
   return forces;

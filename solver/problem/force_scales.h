@@ -13,8 +13,8 @@ namespace snapthrough {
 
 /// @brief Sizes of the forces of a structure, and estimates of its critical loads by them.
 ///
-/// Initial strains and prescribed displacements that meet no resistance cause forces of rounding size. They count
-/// as the smallest Euler load times the displacement gradient that they impose.
+/// Initial strains and prescribed displacements that meet no resistance cause forces of rounding size. They
+/// count as the smallest Euler load times the displacement gradient that they impose.
 class ForceScales {
  public:
   /// @param structure kept by reference; must outlive this object
@@ -24,7 +24,8 @@ class ForceScales {
   [[nodiscard]] double largest(const Eigen::VectorXd& y, const LoadFactors& factors) const;
   /// Denominator of the relative force residual: the largest force, or that of what is imposed.
   [[nodiscard]] double reference(const Eigen::VectorXd& y, const LoadFactors& factors) const;
-  /// Largest section force of the response to some loads that counts as rounding. Zero where nothing is imposed.
+  /// Largest section force of the response to some loads that counts as rounding. Zero where nothing is
+  /// imposed.
   [[nodiscard]] double least(const LoadFactors& factors) const;
   /// Residual f over the forces and displacements that it balances.
   [[nodiscard]] double relative(const Eigen::VectorXd& f, const Eigen::VectorXd& y,

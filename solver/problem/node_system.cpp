@@ -73,7 +73,8 @@ void NodeSystem::plan() {
     if (spring.to >= 0) add(spring.to, rows);
     if (spring.is_stop()) rows.push_back(spring.force_unknown);
   }
-  for (const JointSpring& joint : structure_.joints) rows_.push_back({joint.node_rotation, joint.end_rotation});
+  for (const JointSpring& joint : structure_.joints)
+    rows_.push_back({joint.node_rotation, joint.end_rotation});
   const auto scalars = static_cast<int>(multiplier(parts_));
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
   for (int node = 0; holds > 0 && node < structure_.first_ground; ++node) {
@@ -150,8 +151,7 @@ void NodeSystem::fill_hold(int node, MatrixXd& block) const {
 
 /// Moves the constrained displacements to the right-hand side.
 void NodeSystem::subtract_fixed(const Eigen::Ref<const VectorXd>& rhs, Eigen::Ref<VectorXd> reduced) const {
-  const bool moved =
-      std::ranges::any_of(axes_.fixed(), [&](const Index row) { return rhs[row] != 0.0; });
+  const bool moved = std::ranges::any_of(axes_.fixed(), [&](const Index row) { return rhs[row] != 0.0; });
   if (!moved) return;
   for (std::size_t b = 0; b < rows_.size(); ++b) {
     const std::vector<int>& rows = rows_[b];

@@ -18,8 +18,8 @@ namespace snapthrough {
 
 /// @brief Factorises the tangent of a structure from the condensed tangents of its elements.
 ///
-/// The nodes inside members are eliminated first (Chain). Nodal displacements, released rotations and member end
-/// forces remain, in a sparse symmetric system with one block per part of a member between nodes:
+/// The nodes inside members are eliminated first (Chain). Nodal displacements, released rotations and member
+/// end forces remain, in a sparse symmetric system with one block per part of a member between nodes:
 ///
 ///   [ K_s + springs   X^T   .  ] [u_nodes]
 ///   [ X               -F    I  ] [m_member]     (I acts on its end node)
@@ -31,8 +31,8 @@ namespace snapthrough {
 ///
 /// Holds k H H^T add a block with one unknown force per motion: [ . sqrt(k) H ; . -1 ].
 ///
-/// The negative eigenvalues of the constrained displacement stiffness number the negative pivots of all levels
-/// minus one for each stress and multiplier (Haynsworth's inertia formula).
+/// The negative eigenvalues of the constrained displacement stiffness number the negative pivots of all
+/// levels minus one for each stress and multiplier (Haynsworth's inertia formula).
 class NodeSystem {
  public:
   /// @param structure, axes kept by reference; must outlive this object
@@ -77,9 +77,9 @@ class NodeSystem {
   std::size_t parts_;          ///< number of parts of members between nodes
   std::vector<Chain> chains_;  ///< one per part
   std::vector<CondensedForces> condensed_forces_;
-  std::vector<Eigen::Index> free_;            ///< rows that are unknown
-  std::vector<std::vector<int>> rows_;        ///< rows of each block
-  std::vector<Eigen::MatrixXd> blocks_;       ///< blocks of members, node springs and held nodes
+  std::vector<Eigen::Index> free_;       ///< rows that are unknown
+  std::vector<std::vector<int>> rows_;   ///< rows of each block
+  std::vector<Eigen::MatrixXd> blocks_;  ///< blocks of members, node springs and held nodes
   SymmetricIndefinite factor_;
   Eigen::MatrixXd node_rhs_, free_rhs_;  ///< scratch of solve()
   SharedHolds holds_;

@@ -128,7 +128,7 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
 
 /// Corrects determinant and count of the tangent without couplings between elements.
 void StructuralProblem::add_couplings(TangentReport& report) {
-  couplings_.prepare(elements_->couplings(), size(), [this](Eigen::Ref<MatrixXd> x) {
+  couplings_.prepare(elements_->couplings(), size(), [this](const Eigen::Ref<MatrixXd>& x) {
     to_rows(x);
     solve_uncoupled(x);
   });
@@ -140,7 +140,7 @@ void StructuralProblem::add_couplings(TangentReport& report) {
 /// changes its divergence stability where its determinant changes sign; the count is changed to match that
 /// parity.
 void StructuralProblem::add_follower_loads(const VectorXd& y, double lambda, TangentReport& report) {
-  const double det = follower_loads_.prepare(y, factors(lambda), [this](Eigen::Ref<MatrixXd> x) {
+  const double det = follower_loads_.prepare(y, factors(lambda), [this](const Eigen::Ref<MatrixXd>& x) {
     to_rows(x);
     solve_symmetric(x);
   });
@@ -174,7 +174,7 @@ void StructuralProblem::solve_symmetric(Eigen::Ref<MatrixXd> x) {
   for (Index i = 0; i < x.cols() && !couplings_.empty(); ++i) couplings_.correct(x.col(i));
 }
 
-void StructuralProblem::solve_uncoupled(Eigen::Ref<MatrixXd> x) {
+void StructuralProblem::solve_uncoupled(const Eigen::Ref<MatrixXd>& x) {
   subtract_ground(x);
   nodes_.solve(*elements_, x);
 }

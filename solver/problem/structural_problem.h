@@ -20,9 +20,9 @@ namespace snapthrough {
 
 /// @brief Mixed equilibrium equations of a Structure, factorised at three levels.
 ///
-/// Level 1 eliminates element interiors (ElementSet), levels 2 and 3 the nodes inside members and those of the
-/// model (NodeSystem). Couplings between elements (CoupledSolution) and loads that follow (FollowerLoads) are
-/// added to its solutions.
+/// Level 1 eliminates element interiors (ElementSet), levels 2 and 3 the nodes inside members and those of
+/// the model (NodeSystem). Couplings between elements (CoupledSolution) and loads that follow (FollowerLoads)
+/// are added to its solutions.
 ///
 /// Rows of a node with an inclined support are in the support's axes (SupportAxes). The row of a constrained
 /// component is u - lambda d - d_0.
@@ -107,7 +107,7 @@ class StructuralProblem final : public EquilibriumProblem {
   /// x := S^-1 x with the symmetric part S of the tangent.
   void solve_symmetric(Eigen::Ref<Eigen::MatrixXd> x);
   /// Likewise, without the couplings between elements.
-  void solve_uncoupled(Eigen::Ref<Eigen::MatrixXd> x);
+  void solve_uncoupled(const Eigen::Ref<Eigen::MatrixXd>& x);
   void add_couplings(TangentReport& report);
   void add_follower_loads(const Eigen::VectorXd& y, double lambda, TangentReport& report);
   /// Factors on the proportional and the constant actions at a load factor.

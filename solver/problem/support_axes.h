@@ -12,8 +12,8 @@ namespace snapthrough {
 
 /// @brief Turns the unknowns of nodes between global axes and those of the supports.
 ///
-/// Only inclined supports have axes of their own. Vectors are those of all unknowns; rows that belong to no node
-/// remain.
+/// Only inclined supports have axes of their own. Vectors are those of all unknowns; rows that belong to no
+/// node remain.
 class SupportAxes {
  public:
   /// @param structure kept by reference; must outlive this object

@@ -62,7 +62,7 @@ std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
   return joined;
 }
 
-ContactZones::ContactZones(const Structure& structure) : structure_(structure), model_(*structure.model) {
+ContactZones::ContactZones(const Structure& structure) : structure_(structure) {
   const ResolvedModel& model = *structure.model;
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
     if (!is_one_sided(model.foundations[i])) continue;

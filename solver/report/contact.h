@@ -24,7 +24,7 @@ namespace snapthrough {
 class ContactZones {
  public:
   /// @param structure kept by reference; must outlive this object
-  ContactZones(const Structure& structure);
+  explicit ContactZones(const Structure& structure);
 
   /// Ids of the counted supports, in the order of the counts; empty: no support is one-sided.
   [[nodiscard]] const std::vector<std::string>& ids() const { return ids_; }
@@ -33,7 +33,6 @@ class ContactZones {
 
  private:
   const Structure& structure_;
-  const ResolvedModel& model_;
   std::vector<int> foundations_;
   std::vector<std::size_t> springs_;
   std::vector<std::string> ids_;

@@ -158,19 +158,15 @@ std::string MovingPart::motion() const {
 
 /// Name of the load that does most work on the motion.
 std::string driver(const RigidParts& parts, const Escape& escape) {
-  const std::vector<Action>& actions = parts.model().actions;
   double most = 0.0;
   std::string name = "the loads";
-  for (std::size_t i = 0; i < actions.size();) {
-    const Action& first = actions[i];
+  for (const LoadWork& load : works_of_loads(parts)) {
     const double factor =
-        first.pattern() == Pattern::constant ? escape.actions.constant : escape.actions.proportional;
-    double work = 0.0;
-    for (; i < actions.size() && actions[i].load == first.load; ++i)
-      work += factor * value_of(work_of(parts, actions[i]).row, escape.motion);
+        load.pattern == Pattern::constant ? escape.actions.constant : escape.actions.proportional;
+    const double work = factor * value_of(load.row, escape.motion);
     if (work <= most) continue;
     most = work;
-    name = first.name;
+    name = load.name;
   }
   return name;
 }

@@ -23,7 +23,7 @@ class NeutralMotionLog {
  public:
   /// @param structure, out kept by reference; must outlive this object
   NeutralMotionLog(const Structure& structure, std::vector<NeutralMotion>& out)
-      : structure_(structure), model_(*structure.model), out_(out) {}
+      : structure_(structure), out_(out) {}
 
   /// Starts a branch; motions of the previous branch end.
   void start(int branch) {
@@ -36,7 +36,6 @@ class NeutralMotionLog {
 
  private:
   const Structure& structure_;
-  const ResolvedModel& model_;
   std::vector<NeutralMotion>& out_;
   int branch_ = 0;
   SharedHolds holds_;  ///< holds at the last point

@@ -11,9 +11,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-Vector3d displacement_of(const VectorXd& y, int node) {
-  return DofMap::at(y, node);
-}
+Vector3d displacement_of(const VectorXd& y, int node) { return DofMap::at(y, node); }
 
 /// Sets the extremes of a rod: its force is constant, and one of its ends moves most.
 void set_peaks(MemberState& rod) {

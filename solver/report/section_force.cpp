@@ -55,7 +55,7 @@ void SectionForces::add_loads(const Eigen::VectorXd& y, double proportional, dou
 }
 
 SectionForces::PointForce SectionForces::point_force(const PointAction& load, double xi,
-                                                      const Eigen::VectorXd& y, double factor) const {
+                                                     const Eigen::VectorXd& y, double factor) const {
   const Scales& scales = structure_.scales;
   const auto displacement = [&](const std::array<double, 3>& row) {
     return structure_.geometry == Geometry::linear ? 0.0 : displacement_row(structure_, load.at, row).dot(y);

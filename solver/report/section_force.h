@@ -79,7 +79,7 @@ class SectionForces {
   void add(const StrainAction&, const Eigen::VectorXd&, double) {}
   /// Action of a point load on the member of the element, at the place xi.
   [[nodiscard]] PointForce point_force(const PointAction& load, double xi, const Eigen::VectorXd& y,
-                                        double factor) const;
+                                       double factor) const;
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations(const Eigen::VectorXd& y, const std::vector<LayerState>& layers);
   void add_springs(const Eigen::VectorXd& y);

@@ -25,18 +25,18 @@ std::vector<std::string> skipped_work(const ResolvedModel& model, const Analysis
   std::vector<std::string> out;
   add_bilateral("foundation", model.foundations, out);
   add_bilateral("spring", model.springs, out);
-  if (analysis.type == AnalysisType::buckling && analysis.output.extremes)
+  const AnalysisTraits kind = analysis.traits();
+  if (kind.linearised && analysis.output.extremes)
     out.emplace_back("extremes: linearised buckling reaches no states");
-  if (analysis.type != AnalysisType::path && analysis.output.path_points)
+  if (!kind.reports_path && analysis.output.path_points)
     out.emplace_back("path_points: only the branches of a path have points");
-  const bool critical = analysis.type == AnalysisType::critical;
-  const bool path = critical || analysis.type == AnalysisType::path;
-  if (!path && !analysis.sensitivities.empty())
+  if (!kind.follows_path && !analysis.sensitivities.empty())
     out.emplace_back("sensitivities: only critical points on a path have them");
-  if (!path && analysis.koiter)
+  if (!kind.follows_path && analysis.koiter)
     out.emplace_back("koiter: only bifurcations of a path have Koiter's coefficients");
-  if (!path) return out;
-  if (critical) out.emplace_back("path: points and contact changes, only the critical load was asked for");
+  if (!kind.follows_path) return out;
+  if (kind.ends_at_loss())
+    out.emplace_back("path: points and contact changes, only the critical load was asked for");
   if (analysis.output.states == StateOutput::none) out.emplace_back("states: none were asked for");
   if (points_are_not_polished(analysis))
     out.emplace_back("path points: correction to rounding, their states were not asked for");

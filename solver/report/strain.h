@@ -34,7 +34,7 @@ struct LargestStrain {
 class StrainGauge {
  public:
   /// @param structure kept by reference; must outlive this object
-  StrainGauge(const Structure& structure);
+  explicit StrainGauge(const Structure& structure);
   /// Replaces `largest` if a strain at y exceeds it; returns true in that case.
   [[nodiscard]] bool raise(const Eigen::VectorXd& y, LargestStrain& largest) const;
   /// Whether y is outside the theory: a fibre strain reaches 1 (compression to zero length), or an element

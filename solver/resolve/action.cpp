@@ -2,18 +2,12 @@
 
 #include <cmath>
 
-#include "solver/resolve/pieces.h"
-
 namespace snapthrough {
 
 using Vec2 = std::array<double, 2>;
 
 Vec2 LinePiece::at(double fraction) const {
   return from == to ? from : between(from, to, (fraction - range[0]) / (range[1] - range[0]), power);
-}
-
-std::vector<LinePiece> pieces_of(const Vec2& range, const Vec2& force, const Along<Vec2>& along) {
-  return pieces_between(range, along, [&](double fraction) { return value_at(force, along, fraction); });
 }
 
 double measure_of(LoadMeasure per, double angle) {

@@ -2,8 +2,8 @@
 /// @file
 /// The four basic actions to which every load is resolved.
 ///
-/// What computes with loads visits these four; no other part of the solver but check/ knows which kinds of loads a
-/// request can have.
+/// What computes with loads visits these four; no other part of the solver but check/ knows which kinds of
+/// loads a request can have.
 
 #include <array>
 #include <string>
@@ -43,16 +43,11 @@ struct LineAction {
   bool operator==(const LineAction&) const = default;
 };
 
-/// Pieces of a range between the fractions at which a force is given. @param along empty: `force` everywhere
-[[nodiscard]] std::vector<LinePiece> pieces_of(const std::array<double, 2>& range,
-                                               const std::array<double, 2>& force,
-                                               const Along<std::array<double, 2>>& along);
-
 /// What a load does at one place, or on one member.
 struct Action {
   std::variant<PointAction, LineAction, PressureAction, StrainAction> what;
   int load = -1;     ///< index of the load among those of the model; the actions of a load stand together
-  std::string name;  ///< of the load, for messages
+  std::string name;  ///< name of the load for messages
 
   [[nodiscard]] Pattern pattern() const {
     return std::visit([](const auto& one) { return one.pattern; }, what);

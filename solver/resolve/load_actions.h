@@ -2,8 +2,8 @@
 /// @file
 /// Loads as basic actions: one function for each kind of load.
 ///
-/// resolve() calls the function of a load's kind by overloading. A kind of load without a function here does not
-/// compile.
+/// resolve() calls the function of a load's kind by overloading. A kind of load without a function here does
+/// not compile.
 
 #include "solver/resolve/resolved_model.h"
 

@@ -26,4 +26,11 @@ template <class T, class ForceAt>
   return out;
 }
 
+/// Pieces of a range between the fractions at which a force is given. @param along empty: `force` everywhere
+[[nodiscard]] inline std::vector<LinePiece> pieces_of(const std::array<double, 2>& range,
+                                                      const std::array<double, 2>& force,
+                                                      const Along<std::array<double, 2>>& along) {
+  return pieces_between(range, along, [&](double fraction) { return value_at(force, along, fraction); });
+}
+
 }  // namespace snapthrough

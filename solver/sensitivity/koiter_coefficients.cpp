@@ -25,7 +25,7 @@ std::optional<KoiterCoefficients> koiter_coefficients(const Structure& structure
       event.multiplicity > 1 || !structure.traits.symmetric)
     return std::nullopt;
   StructuralProblem problem(structure);
-  problem.set_holds(event.point.holds);
+  problem.set_context(event.point.context);
   const PathMetric metric{&structure.metric, at.load_weight};
   const auto found = exact_point(problem, metric, at, factorisations);
   if (!found || found->solution.null.cols() != 1) return std::nullopt;

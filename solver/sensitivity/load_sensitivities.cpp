@@ -91,7 +91,7 @@ std::optional<MatrixXd> VariationRate::equations_at(double value) const {
   const Structure structure = with_changed_model(structure_, std::move(changed), modes);
   if (structure.size != structure_.size) return std::nullopt;
   StructuralProblem problem(structure);
-  problem.set_holds(event_.point.holds);
+  problem.set_context(event_.point.context);
   return point_.equations(problem);
 }
 
@@ -193,7 +193,7 @@ std::vector<Sensitivity> load_sensitivities(const std::vector<Variation>& variat
                                             int& factorisations) {
   if (const auto reason = refusal(structure, at.event)) return none(variations, *reason);
   StructuralProblem problem(structure);
-  problem.set_holds(at.event.point.holds);
+  problem.set_context(at.event.point.context);
   const PathMetric metric{&structure.metric, at.load_weight};
   const auto point = exact_point(problem, metric, at, factorisations);
   if (!point) return none(variations, NoDerivative::not_found);

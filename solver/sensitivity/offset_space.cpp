@@ -21,8 +21,8 @@ namespace {
 
 constexpr int kIntervals = OffsetSpace::kPoints + 1;
 
-/// Numbers of the linear program. Source: Vanderbei, Meketon and Freedman, Algorithmica 1, 1986, for the
-/// step.
+/// Step length and bounds of the interior-point method that solves the linear program of a worst
+/// imperfection. Source of the step: Vanderbei, Meketon and Freedman, Algorithmica 1, 1986.
 struct ProgramLimits {
   static constexpr int samples = 8;           ///< points per interval at which |w| is bounded
   static constexpr double share = 2.0 / 3.0;  ///< step over the distance to the boundary; proven to converge

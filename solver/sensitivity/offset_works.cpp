@@ -72,12 +72,12 @@ MotionsAt motions_at(StructuralProblem& problem, const PathMetric& metric, const
 
 /// Residual of the model with an offset at one point of a member, at a given state.
 VectorXd residual_with(const Structure& structure, const ResolvedPointsImperfection& offset,
-                       const ModeOffsets& modes, const MotionsAt& at, const SharedHolds& holds) {
+                       const ModeOffsets& modes, const MotionsAt& at, const PointContext& context) {
   ResolvedModel changed = *structure.model;
   changed.imperfections.emplace_back(offset);
   const Structure other = with_changed_model(structure, std::move(changed), modes);
   StructuralProblem problem(other);
-  problem.set_holds(holds);
+  problem.set_context(context);
   VectorXd out;
   problem.residual(at.y, at.lambda, out);
   return out;
@@ -88,9 +88,9 @@ VectorXd residual_with(const Structure& structure, const ResolvedPointsImperfect
 OffsetWorks offset_works(const Structure& structure, const LocatedPoint& at, const OffsetSpace& space,
                          const ModeOffsets& modes, int& factorisations) {
   const ResolvedModel& model = *structure.model;
-  const SharedHolds& holds = at.event.point.holds;
+  const PointContext& context = at.event.point.context;
   StructuralProblem problem(structure);
-  problem.set_holds(holds);
+  problem.set_context(context);
   const PathMetric metric{&structure.metric, at.load_weight};
   const MotionsAt here = motions_at(problem, metric, structure, at, factorisations);
   OffsetWorks out;
@@ -102,7 +102,7 @@ OffsetWorks offset_works(const Structure& structure, const LocatedPoint& at, con
       const VectorXd one = offset * VectorXd::Unit(space.size(), i);
       const MemberOffsets offsets = space.member_offsets(model, one)[member];
       return residual_with(structure, {{offsets.member, offsets.offsets}, static_cast<int>(member)}, modes,
-                           here, holds);
+                           here, context);
     };
     const VectorXd change = (residual(step) - residual(-step)) / (2.0 * step);
     for (Index j = 0; j < here.motions.cols(); ++j)

@@ -58,7 +58,7 @@ struct JoinedLaw {
   double against_first = 0.0;
 
   [[nodiscard]] bool is_joined() const { return against_first > 0.0; }
-  [[nodiscard]] double glued() const { return std::min(with_first, against_first); }
+  [[nodiscard]] double bilateral() const { return std::min(with_first, against_first); }
   /// Difference of both sums; zero within rounding.
   [[nodiscard]] double rest() const {
     const double rounding = static_cast<double>(members.size()) * std::numeric_limits<double>::epsilon();
@@ -89,10 +89,10 @@ std::vector<JoinedLaw> laws_of(const std::vector<Touching>& supports) {
 
 /// Appends a support with a given stiffness and without gap, bilateral or as before.
 template <class Support>
-void append(Support support, double stiffness, bool glued, std::vector<Support>& out) {
+void append(Support support, double stiffness, bool bilateral, std::vector<Support>& out) {
   support.stiffness = stiffness;
   support.gap = 0.0;
-  if (glued) support.reaction = Reaction::bilateral;
+  if (bilateral) support.reaction = Reaction::bilateral;
   out.push_back(std::move(support));
 }
 
@@ -190,7 +190,7 @@ void Joiner::join_springs_at(const std::vector<Touching>& place) {
     if (!law.is_joined()) continue;
     joined_ = true;
     for (const std::size_t i : law.members) replaced_springs_[place[i].number] = true;
-    append(model_.springs[place[law.members.front()].number], law.glued(), true, springs_);
+    append(model_.springs[place[law.members.front()].number], law.bilateral(), true, springs_);
     if (law.rest() > 0.0) append(model_.springs[place[law.stiffer()].number], law.rest(), false, springs_);
   }
 }
@@ -227,15 +227,15 @@ bool Joiner::join_foundations_on(std::array<double, 2> range, const std::vector<
     const ResolvedFoundation& whole = model_.foundations[foundation.number];
     if (whole.range[0] < middle && middle < whole.range[1]) here.push_back(foundation);
   }
-  const auto put = [&](std::size_t position, double stiffness, bool glued) {
-    append(model_.foundations[here[position].number], stiffness, glued, out);
+  const auto put = [&](std::size_t position, double stiffness, bool bilateral) {
+    append(model_.foundations[here[position].number], stiffness, bilateral, out);
     out.back().range = range;
   };
   bool any = false;
   for (const JoinedLaw& law : laws_of(here)) {
     any = any || law.is_joined();
     if (law.is_joined()) {
-      put(law.members.front(), law.glued(), true);
+      put(law.members.front(), law.bilateral(), true);
       if (law.rest() > 0.0) put(law.stiffer(), law.rest(), false);
     } else {
       for (const std::size_t i : law.members) put(i, here[i].stiffness, false);

@@ -18,7 +18,7 @@ struct ElementPart {
 struct FrozenContact {
   /// Parts on which each foundation acts, per foundation on an element.
   std::vector<std::vector<ElementPart>> contacts;
-  std::vector<char> element_springs;  ///< whether each spring on an element acts
+  std::vector<char> element_springs;  ///< whether each one-sided spring on an element acts
   std::vector<char> node_springs;     ///< whether each spring at a node acts
   /// Unknowns at whose displacements laws with a curve are linearised through the origin; empty: they are
   /// not.

@@ -193,7 +193,7 @@ CriticalCurvePoint Follower::trace_at(double value) {
   const CriticalEvent& event = outcome.critical.back();
   // paths with pinned free motions or touching supports have no comparable neighbours
   if (!traced.touches() && event.cause == CriticalCause::smooth && event.multiplicity == 1 &&
-      !event.point.holds)
+      !event.point.context.holds)
     begin_at(event, traced, value);
   return point;
 }
@@ -295,7 +295,7 @@ CriticalCurve Follower::run() {
 }  // namespace
 
 CriticalCurve follow_critical_point(const CriticalCurveRequest& request) {
-  if (request.values.empty() || request.check_every < 1 || request.analysis.type != AnalysisType::critical ||
+  if (request.values.empty() || request.check_every < 1 || !request.analysis.traits().ends_at_loss() ||
       !request.analysis.discretization.fixed_mesh)
     throw std::invalid_argument("a critical point is followed on a fixed mesh, over at least one value");
   if (request.logarithmic && *std::min_element(request.values.begin(), request.values.end()) <= 0.0)

@@ -105,8 +105,8 @@ void Search::search_at(std::size_t index) {
   for (CriticalEvent event : outcome.critical) {
     if (event.type == CriticalType::broken_bifurcation) continue;
     const bool asked = !request_.number || *request_.number == number++;
-    if (!asked || event.cause != CriticalCause::smooth || event.multiplicity != 1 || event.point.holds ||
-        is_known(index, event.point.lambda / reference_->structure.scales.load))
+    if (!asked || event.cause != CriticalCause::smooth || event.multiplicity != 1 ||
+        event.point.context.holds || is_known(index, event.point.lambda / reference_->structure.scales.load))
       continue;
     if (event.null.size() == 0) event.null = mode_of(traced_->member()->problem, event);
     follow(event, index);
@@ -157,7 +157,7 @@ bool is_monotonic(const std::vector<double>& values) {
 
 CriticalLocus follow_critical_locus(const CriticalLocusRequest& request) {
   if (request.values.size() < 2 || !is_monotonic(request.values) ||
-      request.analysis.type != AnalysisType::critical || !request.analysis.discretization.fixed_mesh)
+      !request.analysis.traits().ends_at_loss() || !request.analysis.discretization.fixed_mesh)
     throw std::invalid_argument(
         "critical points are followed on a fixed mesh, over rising or falling values");
   if (request.logarithmic && std::min(request.values.front(), request.values.back()) <= 0.0)

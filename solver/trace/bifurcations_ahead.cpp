@@ -38,7 +38,7 @@ std::vector<CriticalEvent> bifurcations_of(PointSolver& solver, const PathPoint&
 std::vector<CriticalEvent> predicted_bifurcations(PointSolver& solver, const PathPoint& from, double wanted,
                                                   const BifurcationBounds& bounds) {
   // a motion that is pinned at the start may turn out to be resisted
-  if (!from.modes || (from.holds && from.arc_length == 0.0)) return {};
+  if (!from.modes || (from.context.holds && from.arc_length == 0.0)) return {};
   const SoftModes& modes = *from.modes;
   Eigen::Index first = 0;
   for (Eigen::Index i = 1; i < modes.count(); ++i)

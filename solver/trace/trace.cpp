@@ -58,6 +58,7 @@ class Tracer {
   [[nodiscard]] bool leaves_capacity(const PathPoint& point);
   [[nodiscard]] bool unpinned_loses_stability(const PathPoint& from);
   void complete_step(const PathPoint& from, StepSize& size, PathPoint& to, TracedStep& step);
+  void advance_history(const PathPoint& from, PathPoint& to);
   [[nodiscard]] bool record(const PathPoint& from, PathPoint& to, TracedStep& step,
                             const std::optional<BoundedEnd>& bound);
   [[nodiscard]] bool report_events(const std::vector<CriticalEvent>& events);
@@ -204,7 +205,7 @@ void Tracer::step_to_bifurcation(const std::vector<CriticalEvent>& events, const
 
 void Tracer::find_modes(const PathPoint& from, PathPoint& to) {
   const SharedModes& known = from.modes ? from.modes : first_modes_;
-  solver_.find_modes(to, from.holds == to.holds ? known : nullptr);
+  solver_.find_modes(to, from.context.holds == to.context.holds ? known : nullptr);
 }
 
 /// Whether a path near the capacity of its supports has turned, or jumped to another one, without a critical
@@ -232,6 +233,14 @@ bool Tracer::stop_before_step(const PathPoint& point, int steps, const std::stop
   return false;
 }
 
+/// Supports remember a point when it is recorded, so that steps that were tried leave nothing behind.
+void Tracer::advance_history(const PathPoint& from, PathPoint& to) {
+  EquilibriumProblem& problem = solver_.problem();
+  if (!problem.traits().remembers) return;
+  problem.set_history(from.context.history);
+  to.context.history = problem.remembered(to.y, to.lambda);
+}
+
 /// Records an accepted step and tells the observers; true when the path ends on it (then `to` is the path's
 /// last point).
 bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
@@ -242,6 +251,7 @@ bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
     static_cast<void>(solver_.negative_at(to));  // its factors
     find_modes(from, to);
   }
+  advance_history(from, to);
   std::vector<CriticalEvent> reached;
   int count = from.negative;
   for (const CriticalEvent& event : step.located.events) {
@@ -256,7 +266,10 @@ bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
   travelled_ += follower_.norm().metric().norm(to.y - from.y, 0.0);
   bool ended = report_events(reached);
   if (!reached.empty()) near_capacity_.reset();
-  if (ended) to = out_.last;
+  if (ended) {
+    advance_history(from, out_.last);
+    to = out_.last;
+  }
   const double least = ended || reached.empty() ? from.arc_length : reached.back().point.arc_length;
   to.arc_length = std::max(to.arc_length, beyond(least));
   if (!ended && bound) ended = finish(bound->end, to);
@@ -356,7 +369,7 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
     tell([&](PathObserver& observer) { observer.on_touching(point); });
   broken_.report_passed(to, bound.has_value(), step.located.events);
   if (record(from, to, step, bound)) return true;
-  if (!step.kink && from.holds == to.holds)
+  if (!step.kink && from.context.holds == to.context.holds)
     follower_.remember(from, to);
   else
     follower_.reset_predictor();

@@ -7,7 +7,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-STEP = re.compile(r"^In `(?P<file>[^`]+)`,(?: below `(?P<below>[^`]+)`,)? (?P<where>after|before) `(?P<anchor>[^`]+)`:\n\n"
+STEP = re.compile(r"^In `(?P<file>[^`]+)`,(?: below `(?P<below>[^`]+)`,)? "
+                  r"(?:(?P<where>after|before) `(?P<anchor>[^`]+)`|as a new file):\n\n"
                   r"```\w+\n(?P<block>.*?)```", re.M | re.S)
 
 
@@ -38,8 +39,9 @@ def apply_blocks(page, copy, count):
         file = copy / step["file"]
         if not file.exists():
             file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text((ROOT / step["file"]).read_text())
-        file.write_text(insert(file.read_text(), step))
+            if step["anchor"]:
+                file.write_text((ROOT / step["file"]).read_text())
+        file.write_text(insert(file.read_text(), step) if step["anchor"] else step["block"])
     return sorted({step["file"] for step in steps})
 
 

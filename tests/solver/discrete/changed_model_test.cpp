@@ -135,8 +135,7 @@ TEST_P(ChangedModel, TakesOverAxesWhereNodesMembersAndImperfectionsAreTheSame) {
   changed.foundations[0].stiffness *= 2.0;
   EXPECT_EQ(with_changed_model(structure, resolve(changed), {}).axes, structure.axes);
   changed.imperfections.clear();
-  EXPECT_NE(with_changed_model(structure, resolve(changed), {}).stress_free,
-            structure.stress_free);
+  EXPECT_NE(with_changed_model(structure, resolve(changed), {}).stress_free, structure.stress_free);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, ChangedModel,
