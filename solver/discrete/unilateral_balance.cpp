@@ -149,13 +149,14 @@ void UnilateralBalance::close_groups() {
 
 void UnilateralBalance::add_loads() {
   const Index unknowns = motions_.motions().rows();
+  const std::vector<LoadWork> works = works_of_loads(motions_.parts());
   for (Group& group : groups_) {
     MatrixXd seen = motions_.motions() * group.basis;  // work of unit forces per unknown
     seen = (seen.array().abs() > Rounding::motion).select(seen, 0.0).eval();
     const VectorXd weights = seen.rowwise().norm();
     VectorXd constant = VectorXd::Zero(unknowns);
     VectorXd proportional = VectorXd::Zero(unknowns);
-    for (const LoadWork& load : works_of_loads(motions_.parts())) {
+    for (const LoadWork& load : works) {
       const bool is_constant = load.pattern == Pattern::constant;
       VectorXd& forces = is_constant ? constant : proportional;
       double& size = is_constant ? group.constant.size : group.proportional.size;

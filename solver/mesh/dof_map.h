@@ -39,12 +39,12 @@ struct DofMap {
   [[nodiscard]] static constexpr Index component(Index unknown) {
     return unknown % components;
   }
-  /// Displacement and rotation of a node in a vector of unknowns.
+  /// Displacement (x, y) and rotation of a node, in a vector that has a value for each unknown.
   template <class Vector>
   [[nodiscard]] static auto at(Vector&& unknowns, Eigen::Index node) {
     return std::forward<Vector>(unknowns).template segment<components>(first(node));
   }
-  /// Displacement of a node in a vector of unknowns.
+  /// Displacement (x, y) of a node, in a vector that has a value for each unknown.
   template <class Vector>
   [[nodiscard]] static auto displacement(Vector&& unknowns, Eigen::Index node) {
     return std::forward<Vector>(unknowns).template segment<2>(first(node));

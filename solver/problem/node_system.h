@@ -40,7 +40,7 @@ class NodeSystem {
 
   /// Adds the artificial springs of `holds` to the tangent from the next factorise() on; null removes them.
   void set_holds(const SharedHolds& holds);
-  /// @brief Factorises the tangent.
+  /// @brief Factorises the tangent stiffness of all nodes, for solve(), and counts its negative eigenvalues.
   /// @param condensed one entry per element
   TangentReport factorise(std::span<const CondensedElement> condensed, const NodeSpringWork& springs);
   /// @brief x := K^-1 x. Couplings of elements and loads that follow are no part of K.

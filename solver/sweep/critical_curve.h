@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "solver/model/analysis.h"
-#include "solver/resolve/resolved_model.h"
+#include "solver/model/model.h"
 #include "solver/result.h"
 
 namespace snapthrough {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "solver/model/analysis.h"
-#include "solver/resolve/resolved_model.h"
+#include "solver/model/model.h"
 #include "solver/result.h"
 #include "solver/sweep/locus_curve.h"
 

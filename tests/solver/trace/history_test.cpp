@@ -14,7 +14,7 @@
 namespace snapthrough {
 namespace {
 
-/// The largest value that the ratchet has passed.
+/// What the ratchet remembers: the largest displacement a that it has passed.
 class Passed final : public History {
  public:
   explicit Passed(double value) : value_(value) {}
