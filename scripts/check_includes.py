@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks that dependencies point one way: solver <- api <- server and clients, the folders of each of the first three from the
-ground up, and which libraries each layer sees.
+ground up, which libraries each layer sees, and that the solver's installed headers include installed ones alone.
 
   check_includes.py              exit status 1 names the includes that are not allowed
   check_includes.py --self-test  checks the checker
@@ -101,6 +101,18 @@ def check_source(source, layer, path=""):
     return found
 
 
+def installed_headers(cmake):
+    """Paths of the headers that solver/CMakeLists.txt installs, from the root."""
+    files = re.search(r"FILE_SET HEADERS[^)]*?\bFILES\s+([^)]*)\)", cmake)
+    return {f"solver/{name}" for name in files[1].split()}
+
+
+def missing_when_installed(source, installed):
+    """Headers that an installed one includes and that are not installed themselves."""
+    names = (match[1] or "" for match in INCLUDE.finditer(strip_comments(source)))
+    return [name for name in names if name.startswith('"') and name[1:-1] not in installed]
+
+
 # where the snippets of each layer stand
 SNIPPETS = {"solver": "solver/path/x.cpp", "api": "api/value.cpp", "server": "server/store/sqlite/x.cpp", "clients": ""}
 GOOD = [
@@ -148,6 +160,11 @@ def self_test():
     wrong += [f"{layer}: {text}" for layer, source in GOOD for _, text in check_source(source, layer, SNIPPETS[layer])]
     if rows_of_readme("| `a`, `b/` | text |\n| `c/d/` | `e` |\n") != ["a", "b", "c/d"]:
         wrong.append("the table of a README is not read")
+    installed = installed_headers("target_sources(x PUBLIC FILE_SET HEADERS BASE_DIRS ${D}\n  FILES a.h b/c.h\n  d.h)\n")
+    if installed != {"solver/a.h", "solver/b/c.h", "solver/d.h"}:
+        wrong.append("the installed headers are not read")
+    if missing_when_installed('#include <vector>\n#include "solver/a.h"\n#include "solver/b/x.h"\n', installed) != ['"solver/b/x.h"']:
+        wrong.append("a header that is not installed is not found")
     print("\n".join(wrong) if wrong else f"check_includes: self-test of {len(BAD) + len(GOOD)} snippets passed")
     return 1 if wrong else 0
 
@@ -166,6 +183,11 @@ def main(arguments):
             for line, text in check_source(path.read_text(encoding="utf-8"), layer, place):
                 offenders += 1
                 print(f"{place}:{line}: {text}")
+    installed = installed_headers((ROOT / "solver/CMakeLists.txt").read_text(encoding="utf-8"))
+    for place in sorted(installed):
+        for name in missing_when_installed((ROOT / place).read_text(encoding="utf-8"), installed):
+            offenders += 1
+            print(f"{place}: {name} is not installed, and this header is (FILES of solver/CMakeLists.txt)")
     if rows_of_readme((ROOT / "server/README.md").read_text(encoding="utf-8")) != SERVER_ORDER:
         offenders += 1
         print("server/README.md: the rows of its table are not those of SERVER_ORDER")
