@@ -163,8 +163,8 @@ std::optional<ExpectedTime> expected_time(const Sweep& sweep, std::vector<Expect
     return time;
   }
   const CurveLaw& law = sweep.data().followed.locus ? kLocus : kFirstPoint;
-  const double curve = law.first + law.of_value * static_cast<double>(sweep.unit_size());
-  ExpectedTime time = times(static_cast<double>(sweep.units()) * curve, std::move(*median));
+  const double curve = law.first + law.of_value * static_cast<double>(sweep.item_size());
+  ExpectedTime time = times(static_cast<double>(sweep.items()) * curve, std::move(*median));
   time.model = "a curve that is followed takes as many times the median of the points that were read as " +
                rounded(law.first, 2) + " + " + rounded(law.of_value, 2) + " * its values, each by " +
                time.model;

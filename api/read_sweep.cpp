@@ -275,7 +275,7 @@ void read_follow(Object& root, SweepData& data) {
     return;
   }
   check_follow(data, *follow);
-  data.unit_size = data.parameters.back().count();
+  data.item_size = data.parameters.back().count();
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Json document_with(const SweepData& data, const std::vector<Json>& values) {
 
 std::uint64_t Sweep::size() const { return data_->points; }
 
-std::uint64_t places_of_unit(const SweepData& data) {
+std::uint64_t places_of_item(const SweepData& data) {
   std::uint64_t places = 1;
   for (int i = data.refine ? data.refine->parameters : 0; i > 0; --i) {
     places *= data.parameters[data.parameters.size() - static_cast<std::size_t>(i)].count();
@@ -87,11 +87,11 @@ std::uint64_t places_of_unit(const SweepData& data) {
   return places;
 }
 
-std::uint64_t Sweep::places() const { return data_->points * places_of_unit(*data_); }
+std::uint64_t Sweep::places() const { return data_->points * places_of_item(*data_); }
 
 bool Sweep::refines() const { return data_->refine.has_value(); }
 
-std::uint64_t Sweep::first_place(std::uint64_t outcome) const { return outcome * places_of_unit(*data_); }
+std::uint64_t Sweep::first_place(std::uint64_t outcome) const { return outcome * places_of_item(*data_); }
 
 std::size_t Sweep::output_count() const { return data_->outputs.size(); }
 
@@ -185,7 +185,7 @@ std::shared_ptr<const Json> Sweep::document_between(std::uint64_t point, double 
 
 bool Sweep::follows() const { return data_->follow; }
 
-std::uint64_t Sweep::unit_size() const { return data_->unit_size; }
+std::uint64_t Sweep::item_size() const { return data_->item_size; }
 
 bool Sweep::follows_logarithm() const {
   const std::optional<SweepRange>& range = data_->parameters.back().range;
@@ -194,8 +194,8 @@ bool Sweep::follows_logarithm() const {
 
 std::string Sweep::curve_text(std::uint64_t point) const {
   Json values = Json::array();
-  for (std::uint64_t i = 0; i < unit_size(); ++i) {
-    values.push_back(design_values(*data_, point - point % unit_size() + i).back());
+  for (std::uint64_t i = 0; i < item_size(); ++i) {
+    values.push_back(design_values(*data_, point - point % item_size() + i).back());
   }
   const SweepFollow& followed = data_->followed;
   const std::string which = followed.locus   ? " locus"

@@ -94,11 +94,11 @@ class Sweep {
   /// Returns what distinguishes a refined curve from other sweeps of its points, as text. @pre refines()
   [[nodiscard]] std::string refinement_text() const;
 
-  /// @brief Returns the number of consecutive points that are computed together as a unit: 1, or the length
-  /// of a followed curve. Units begin at multiples of it.
-  [[nodiscard]] std::uint64_t unit_size() const;
-  [[nodiscard]] std::uint64_t units() const { return size() / unit_size(); }
-  /// Returns whether units are curves, along which the critical point is followed over the last parameter.
+  /// @brief Returns the number of consecutive points that are computed together as an item: 1, or the length
+  /// of a followed curve. Items begin at multiples of it.
+  [[nodiscard]] std::uint64_t item_size() const;
+  [[nodiscard]] std::uint64_t items() const { return size() / item_size(); }
+  /// Returns whether items are curves, along which the critical point is followed over the last parameter.
   [[nodiscard]] bool follows() const;
   /// Returns whether a curve is followed in the logarithm of its parameter. @pre follows()
   [[nodiscard]] bool follows_logarithm() const;

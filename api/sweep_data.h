@@ -88,13 +88,13 @@ struct SweepData {
   bool follow = false;   ///< critical points are followed over the last parameter
   SweepFollow followed;  ///< which ones, where `follow` is set
   std::optional<SweepRefine> refine;
-  std::uint64_t unit_size = 1;  ///< number of points computed together
+  std::uint64_t item_size = 1;  ///< number of points computed together
   std::uint64_t points = 0;     ///< points that are computed; with `refine`, the number of curves or surfaces
 };
 
 /// @brief Returns the number of points that a request can be built for: with `refine`, all places of each
 /// curve or surface. @pre the design is a grid, or there is no `refine`
-[[nodiscard]] std::uint64_t places_of_unit(const SweepData& data);
+[[nodiscard]] std::uint64_t places_of_item(const SweepData& data);
 
 /// A row of a table.
 struct SweepRow {

@@ -47,7 +47,7 @@ class TableWriter {
   [[nodiscard]] std::string head() const;
   /// Appends the row of a point, or all rows of a curve or surface of a refined sweep.
   /// @param number of the outcome, less than sweep.size()
-  /// @pre outcome is one of unit_outcomes()
+  /// @pre outcome is one of item_outcomes()
   void append_row(std::uint64_t number, const PointOutcome& outcome, std::string& text);
   /// @brief Appends at most about `bytes` of the text after the rows. Returns false at its end.
   /// @pre no row follows

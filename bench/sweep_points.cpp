@@ -11,7 +11,7 @@
 #include "api/point_outcome.h"
 #include "api/sweep.h"
 #include "server/jobs/content_key.h"
-#include "server/worker/unit.h"
+#include "server/worker/sweep_item.h"
 #include "solver/solve.h"
 
 namespace {
@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
   const Clock::time_point start = Clock::now();
   std::uint64_t failed = 0;
   std::shared_ptr<nlohmann::json> document;
-  for (std::uint64_t unit = 0; unit < sweep.units(); ++unit) {
-    for (const api::PointOutcome& outcome : server::SweepUnit(sweep, unit).compute(solver, {}, document)) {
+  for (std::uint64_t item = 0; item < sweep.items(); ++item) {
+    for (const api::PointOutcome& outcome : server::SweepItem(sweep, item).compute(solver, {}, document)) {
       failed += outcome.failed() ? 1 : 0;
     }
   }

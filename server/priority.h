@@ -12,7 +12,7 @@ namespace snapthrough::server {
 /// has it for a tenth of the time that one of nice value 0 has it.
 inline constexpr int kGivesWay = 10;
 
-/// Longest duration of short work. A job, or a unit of a sweep, that takes longer gives way to short ones
+/// Longest duration of short work. A job, or an item of a sweep, that takes longer gives way to short ones
 /// from then on: its process gets a lower priority.
 inline constexpr std::chrono::milliseconds kShort{1000};
 

@@ -23,8 +23,8 @@
 #include "api/provenance.h"
 #include "api/solved_point.h"
 #include "api/sweep.h"
+#include "api/sweep_item.h"
 #include "api/sweep_table.h"
-#include "api/sweep_unit.h"
 #include "clients/c/snapthrough.h"
 #include "solver/solve.h"
 
@@ -247,9 +247,9 @@ struct Points {
 
 /// Returns the rule that `points` breaks; "" for valid points.
 std::string broken_rule(const api::Sweep& sweep, const Points& points) {
-  const std::string unit = std::to_string(sweep.unit_size());
-  if (points.first % sweep.unit_size() != 0 || points.count % sweep.unit_size() != 0) {
-    return "`first` and `count` are multiples of the sweep's unit, " + unit + ".";
+  const std::uint64_t unit = sweep.item_size();
+  if (points.first % unit != 0 || points.count % unit != 0) {
+    return "`first` and `count` are multiples of the sweep's unit, " + std::to_string(unit) + ".";
   }
   if (points.first >= sweep.size()) {
     return "`first` is less than the number of points of the sweep, " + std::to_string(sweep.size()) + ".";
@@ -262,14 +262,14 @@ Answer swept(const api::Sweep& sweep, const nlohmann::json& asked, Points points
   points.count = std::min(points.count, sweep.size() - points.first);
   api::TableWriter table(sweep, api::TableForm::json, std::nullopt, api::provenance_members("table", asked));
   Answer answer{SNAPTHROUGH_DONE, "{\"total\": " + std::to_string(sweep.size()) +
-                                      ", \"unit\": " + std::to_string(sweep.unit_size()) + ", " +
+                                      ", \"unit\": " + std::to_string(sweep.item_size()) + ", " +
                                       table.head().substr(1)};
   std::shared_ptr<nlohmann::json> document;
   for (std::uint64_t done = 0; done < points.count;) {
-    const std::uint64_t unit = (points.first + done) / sweep.unit_size();
+    const std::uint64_t item = (points.first + done) / sweep.item_size();
     const std::vector<api::PointOutcome> outcomes =
         hooks.stop.stop_requested() ? std::vector<api::PointOutcome>()
-                                    : api::unit_outcomes(sweep, unit, timed, hooks, document);
+                                    : api::item_outcomes(sweep, item, timed, hooks, document);
     if (outcomes.empty() || api::is_cut_short(outcomes)) {
       answer.status = SNAPTHROUGH_CANCELLED;
       break;

@@ -64,7 +64,7 @@ typedef struct snapthrough_progress {
 } snapthrough_progress;
 
 /**
- * Called on the thread of the call, after each step of a path or each unit of a sweep. A value other than 0 stops
+ * Called on the thread of the call, after each step of a path or each item of a sweep. A value other than 0 stops
  * the call, which then returns SNAPTHROUGH_CANCELLED. The callback may call any function of this library. It must
  * not throw and must not leave by longjmp.
  */
@@ -126,22 +126,22 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_check(const char* document,
  * with more cores distributes the points among threads, processes or machines; a row does not depend on which other
  * points are solved in the same call.
  *
- * A sweep's unit is the number of its points that are computed together: 1, or the length of a curve along which a
- * critical point is followed. A first call with `count` 0 returns the unit.
+ * An item of a sweep is what is computed as one: a point, or all points of a curve along which a critical point is
+ * followed. The sweep's unit is the number of points of an item; a first call with `count` 0 returns it.
  *
  * @param document UTF-8 JSON: a sweep
  * @param length   bytes of the document
  * @param first    a multiple of the unit, less than the number of points of the sweep
  * @param count    a multiple of the unit; points past the end of the sweep are left out
  * @param options  null for the defaults
- * @param callback called after each unit; null for none
+ * @param callback called after each item; null for none
  * @param user     passed to the callback
  * @return with DONE or CANCELLED the table that `snapthrough sweep` writes, of these points:
  *         {"total", "unit", "kind": "table", "program": {"name", "version", "build", "target"}, "request_sha256",
  *         "columns": [name...], "rows": [[value...]...], "points": [number...]}, where `total` is
  *         the number of points of the whole sweep, and `points` has the number of the point of each row, counted
  *         from 0. The last column, "error", is null, or {"code", "detail"} of a point that failed. CANCELLED has
- *         the rows of the units that had ended. Otherwise a problem
+ *         the rows of the items that had ended. Otherwise a problem
  */
 SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_sweep(const char* document, size_t length, uint64_t first,
                                                            uint64_t count, const snapthrough_options* options,

@@ -26,9 +26,9 @@ std::string name_of(const SweepPart& part) {
 
 /// Counts the rows of a part. @throws std::runtime_error when a row does not belong to the part
 PartRows rows_of(PartReader& reader, const api::Sweep& sweep) {
-  const UnitRange units = units_of(reader.part(), sweep);
-  PartRows rows{reader.path(), reader.part(), units.first * sweep.unit_size(),
-                (units.end - units.first) * sweep.unit_size(), 0};
+  const ItemRange items = items_of(reader.part(), sweep);
+  PartRows rows{reader.path(), reader.part(), items.first * sweep.item_size(),
+                (items.end - items.first) * sweep.item_size(), 0};
   if (!sweep.refines()) {
     reader.require_outputs(sweep.output_count());
   }

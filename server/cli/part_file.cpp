@@ -58,8 +58,8 @@ std::optional<SweepPart> sweep_part_from(std::string_view text) {
   return SweepPart{*number, *count};
 }
 
-UnitRange units_of(const SweepPart& part, const api::Sweep& sweep) {
-  return {sweep.units() * (part.number - 1) / part.count, sweep.units() * part.number / part.count};
+ItemRange items_of(const SweepPart& part, const api::Sweep& sweep) {
+  return {sweep.items() * (part.number - 1) / part.count, sweep.items() * part.number / part.count};
 }
 
 PartReader::PartReader(std::string path) : path_(std::move(path)), file_(path_, std::ios::binary) {
@@ -149,7 +149,7 @@ void PartWriter::take_over(const json& document, const api::Sweep& sweep, const 
   if (reader.document() != document) {
     throw std::runtime_error(path_ + " holds rows of another sweep document");
   }
-  const std::uint64_t first = units_of(part, sweep).first * sweep.unit_size();
+  const std::uint64_t first = items_of(part, sweep).first * sweep.item_size();
   std::uint64_t whole_bytes = reader.bytes();
   std::uint64_t points = 0;
   api::RowCounts counts;
@@ -162,7 +162,7 @@ void PartWriter::take_over(const json& document, const api::Sweep& sweep, const 
     const api::RowCounts more = sweep.row_counts(row->first, row->second);
     counts.rows += more.rows;
     counts.failed += more.failed;
-    if (points % sweep.unit_size() == 0) {
+    if (points % sweep.item_size() == 0) {
       whole_bytes = reader.bytes();
       points_ = points;
       counts_ = counts;

@@ -32,17 +32,17 @@ struct SweepPart {
 /// Parses a part such as "3/16"; nullopt unless 1 <= number <= count.
 [[nodiscard]] std::optional<SweepPart> sweep_part_from(std::string_view text);
 
-/// Units `first` to `end` - 1.
-struct UnitRange {
+/// Items `first` to `end` - 1.
+struct ItemRange {
   std::uint64_t first = 0;
   std::uint64_t end = 0;
 
-  bool operator==(const UnitRange&) const = default;
+  bool operator==(const ItemRange&) const = default;
 };
 
-/// @brief Returns the consecutive units of a part. Sizes of parts differ by at most one unit; with more parts
-/// than units, some parts are empty.
-[[nodiscard]] UnitRange units_of(const SweepPart& part, const api::Sweep& sweep);
+/// @brief Returns the consecutive items of a part. Sizes of parts differ by at most one item; with more parts
+/// than items, some parts are empty.
+[[nodiscard]] ItemRange items_of(const SweepPart& part, const api::Sweep& sweep);
 
 /// @brief Reads a part file from its beginning. Not thread-safe. Functions throw std::runtime_error with the
 /// file's name when the file's content is invalid.
@@ -79,7 +79,7 @@ class PartReader {
 /// write it. Not thread-safe.
 class PartWriter {
  public:
-  /// @brief Keeps the rows of complete units that the file has, and truncates the file after them.
+  /// @brief Keeps the rows of complete items that the file has, and truncates the file after them.
   /// @throws std::runtime_error when the file is in use, cannot be written, or holds another part, another
   /// sweep or rows of another version of the program; the file is then unchanged
   PartWriter(std::string path, const nlohmann::json& document, const api::Sweep& sweep,

@@ -22,7 +22,7 @@
 #include "server/cli/part_file.h"
 #include "server/cli/progress_bar.h"
 #include "server/cli/shown.h"
-#include "server/worker/unit.h"
+#include "server/worker/sweep_item.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {
@@ -93,32 +93,32 @@ class PartSink final : public RowSink {
   PartWriter& file_;
 };
 
-/// @brief Hands out units and writes the rows of their points in design order. Thread-safe.
+/// @brief Hands out items and writes the rows of their points in design order. Thread-safe.
 class RowQueue {
  public:
-  /// @param units units to compute
+  /// @param items items to compute
   /// @param bar stream of the progress bar; null: no bar
   /// @param stop after a requested stop, next() returns nullopt
-  RowQueue(const api::Sweep& sweep, UnitRange units, RowSink& sink, std::ostream* bar, std::stop_token stop)
+  RowQueue(const api::Sweep& sweep, ItemRange items, RowSink& sink, std::ostream* bar, std::stop_token stop)
       : sweep_(sweep),
-        units_(units),
+        items_(items),
         stop_(std::move(stop)),
         sink_(sink),
         bar_(bar),
-        given_(units.first),
-        next_row_(units.first * sweep.unit_size()) {}
+        given_(items.first),
+        next_row_(items.first * sweep.item_size()) {}
 
-  /// Returns the next unit to compute; nullopt when there is none left.
+  /// Returns the next item to compute; nullopt when there is none left.
   std::optional<std::uint64_t> next() {
     std::unique_lock lock(mutex_);
-    if (given_ == units_.end || failure_ || stop_.stop_requested()) {
+    if (given_ == items_.end || failure_ || stop_.stop_requested()) {
       return std::nullopt;
     }
-    const std::uint64_t unit = given_++;
-    const std::uint64_t size = sweep_.unit_size();
+    const std::uint64_t item = given_++;
+    const std::uint64_t size = sweep_.item_size();
     const bool has_room = room_.wait(
-        lock, stop_, [&] { return failure_ || unit * size < next_row_ + std::max(kLongestLead, 4 * size); });
-    return has_room && !failure_ ? std::optional(unit) : std::nullopt;
+        lock, stop_, [&] { return failure_ || item * size < next_row_ + std::max(kLongestLead, 4 * size); });
+    return has_room && !failure_ ? std::optional(item) : std::nullopt;
   }
 
   /// Takes the outcome of a point. A cancelled point gets no row, so that no later row is written either.
@@ -146,7 +146,7 @@ class RowQueue {
     }
     sink_.end();
     show_bar(true);
-    return {next_row_ - units_.first * sweep_.unit_size(), counts_};
+    return {next_row_ - items_.first * sweep_.item_size(), counts_};
   }
 
  private:
@@ -172,20 +172,20 @@ class RowQueue {
     }
     next_bar_ = now + kBetweenBars;
     const std::chrono::duration<double> elapsed = now - start_;
-    const std::uint64_t all = (units_.end - units_.first) * sweep_.unit_size();
+    const std::uint64_t all = (items_.end - items_.first) * sweep_.item_size();
     *bar_ << line_start << progress_line(done_, counts_.failed, all, elapsed.count()) << line_end
           << (last ? "\n" : "") << std::flush;
   }
 
   const api::Sweep& sweep_;
-  const UnitRange units_;
+  const ItemRange items_;
   const std::stop_token stop_;
   RowSink& sink_;
   std::ostream* const bar_;
   std::mutex mutex_;
   std::condition_variable_any room_;
   std::map<std::uint64_t, api::PointOutcome> waiting_;
-  std::uint64_t given_;         ///< next unit to hand out
+  std::uint64_t given_;         ///< next item to hand out
   std::uint64_t next_row_;      ///< point of the next row
   std::exception_ptr failure_;  ///< exception of the sink
   std::uint64_t done_ = 0;      ///< number of computed points
@@ -194,7 +194,7 @@ class RowQueue {
   Clock::time_point next_bar_ = start_;
 };
 
-/// Computes the units of a queue on `threads` threads. Units are independent, so that rows do not depend on
+/// Computes the items of a queue on `threads` threads. Items are independent, so that rows do not depend on
 /// the number of threads.
 Written compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, const std::stop_token& stop) {
   const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
@@ -203,10 +203,10 @@ Written compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, cons
   const auto work = [&] {
     std::shared_ptr<nlohmann::json> document;
     while (const std::optional<std::uint64_t> number = queue.next()) {
-      const SweepUnit unit(sweep, *number);
-      std::vector<api::PointOutcome> outcomes = unit.compute(solver, {.stop = stop}, document);
+      const SweepItem item(sweep, *number);
+      std::vector<api::PointOutcome> outcomes = item.compute(solver, {.stop = stop}, document);
       for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        queue.put(unit.first() + i, std::move(outcomes[i]));
+        queue.put(item.first() + i, std::move(outcomes[i]));
       }
     }
   };
@@ -236,7 +236,7 @@ int write_table(const api::Sweep& sweep, const nlohmann::json& document, const S
                 const SweepOptions& options) {
   const Interruption interruption;
   TableSink sink(sweep, document, options.form, streams.out);
-  RowQueue queue(sweep, {0, sweep.units()}, sink, options.show_progress ? &streams.err : nullptr,
+  RowQueue queue(sweep, {0, sweep.items()}, sink, options.show_progress ? &streams.err : nullptr,
                  interruption.token());
   const Written rows = compute_rows(sweep, queue, options.threads, interruption.token());
   if (!streams.out) {
@@ -257,14 +257,14 @@ int write_part(const api::Sweep& sweep, const nlohmann::json& document, const St
   const Interruption interruption;
   PartWriter file(options.out, document, sweep, options.part);
   PartSink sink(file);
-  UnitRange units = units_of(options.part, sweep);
-  const std::uint64_t points = (units.end - units.first) * sweep.unit_size();
+  ItemRange items = items_of(options.part, sweep);
+  const std::uint64_t points = (items.end - items.first) * sweep.item_size();
   if (file.points_before() > points) {
     streams.err << "snapthrough: " << options.out << " has more rows than its part\n";
     return kOther;
   }
-  units.first += file.points_before() / sweep.unit_size();
-  RowQueue queue(sweep, units, sink, options.show_progress ? &streams.err : nullptr, interruption.token());
+  items.first += file.points_before() / sweep.item_size();
+  RowQueue queue(sweep, items, sink, options.show_progress ? &streams.err : nullptr, interruption.token());
   const Written rows = compute_rows(sweep, queue, options.threads, interruption.token());
   const std::uint64_t present = file.points_before() + rows.outcomes;
   if (present < points) {

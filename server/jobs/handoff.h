@@ -26,7 +26,7 @@ struct Handoff {
 /// @brief Queue in which workers of this process wait for jobs. Thread-safe.
 class HandoffQueue {
  public:
-  /// Announces one more job or unit in the store; wakes one worker and one spare worker.
+  /// Announces one more job or item in the store; wakes one worker and one spare worker.
   void ring() {
     bell_.ring();
     for_spares_.ring();

@@ -89,7 +89,7 @@ struct UsedKey {
   Time first_used;
 };
 
-/// Lease of a job or of units: after `until`, unless it is renewed, the work may be given to another worker.
+/// Lease of a job or of items: after `until`, unless it is renewed, the work may be given to another worker.
 struct Lease {
   std::string worker;  ///< name of the instance of the service
   Time until;

@@ -22,12 +22,12 @@ inline constexpr std::int64_t kLeastJobMemory = 1 << 20;
 struct JobLimits {
   int queue = 100'000;                     ///< accepted jobs, >= 1
   std::chrono::seconds lease{30};          ///< duration of a lease that is not renewed
-  std::chrono::seconds longest_run{3600};  ///< longest run of one job, or of one unit of a sweep
+  std::chrono::seconds longest_run{3600};  ///< longest run of one job, or of one item of a sweep
   int spare_workers = 8;  ///< most analyses beside those of the workers, see WorkerPool; >= 0
   /// Time for which all workers are at the same work until spare workers begin.
   std::chrono::milliseconds spare_after{20};
   std::int64_t job_memory = std::int64_t{1} << 30;  ///< memory of one analysis in bytes, >= kLeastJobMemory
-  int max_crashes = 3;                              ///< crashes after which a job or unit is given up
+  int max_crashes = 3;                              ///< crashes after which a job or item is given up
   std::chrono::seconds keep_jobs{30 *
                                  86400};  ///< time that jobs and sweeps are kept after their end; 0: for ever
   std::chrono::seconds keep_keys{86400};  ///< time that idempotency keys are kept

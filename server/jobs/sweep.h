@@ -15,7 +15,7 @@ namespace snapthrough::server {
 
 /// @brief A sweep without its document and rows.
 ///
-/// A sweep is accepted until a worker takes its first units, running until every point has its row, and then
+/// A sweep is accepted until a worker takes its first items, running until every point has its row, and then
 /// successful, or failed if a row has an error. A failed or dismissed sweep that is tried again is accepted
 /// (sweep_state.h).
 struct SweepRecord {
@@ -47,7 +47,7 @@ struct NewSweep {
   std::int64_t points = 0;
   Time created;
   std::string owner = {};
-  std::int64_t unit_points = 1;  ///< points of each unit (worker/unit.h); divides `points`
+  std::int64_t item_points = 1;  ///< points of each item (worker/sweep_item.h); divides `points`
   std::optional<IdempotencyKey> idempotency = {};
   bool reuse = true;  ///< rows of other sweeps of the owner may be used
   std::string analysis_type = {};
@@ -71,19 +71,19 @@ struct OpenSweep {
   bool reuse = true;
 };
 
-/// Consecutive units of a sweep.
-struct UnitRun {
-  std::uint64_t first = 0;  ///< number of the first unit, counted from 0
+/// Consecutive items of a sweep.
+struct ItemRun {
+  std::uint64_t first = 0;  ///< number of the first item, counted from 0
   std::uint64_t count = 0;
 
-  bool operator==(const UnitRun&) const = default;
+  bool operator==(const ItemRun&) const = default;
 };
 
-/// Claim of a worker on units. Stores refuse rows under a claim whose lease has run out.
-struct UnitClaim {
+/// Claim of a worker on items. Stores refuse rows under a claim whose lease has run out.
+struct ItemClaim {
   std::int64_t number = 0;  ///< never used again
   std::string sweep;
-  UnitRun units;
+  ItemRun items;
 };
 
 /// Selection of rows of the table of a sweep.

@@ -89,13 +89,13 @@ void Upkeep::keep_leases(Time now, Time steady) {
   }
 }
 
-/// Renews the leases of jobs and units held since before `since` (steady_time()) that have not run out at
+/// Renews the leases of jobs and items held since before `since` (steady_time()) that have not run out at
 /// `now`. Returns whether the store did it.
 bool Upkeep::renew_leases(Time since, Time until, Time now) {
-  const bool units = context_.sweeps.renew_leases(since, until, now);
+  const bool items = context_.sweeps.renew_leases(since, until, now);
   const std::vector<Claim> held = context_.active.stored_before(since);
   if (held.empty()) {
-    return units;
+    return items;
   }
   const StatusOr<std::vector<std::string>> lost = context_.store.renew(held, until, now);
   if (!lost.ok()) {
@@ -105,7 +105,7 @@ bool Upkeep::renew_leases(Time since, Time until, Time now) {
   for (const std::string& id : *lost) {
     context_.active.stop(id, StopReason::lease_lost);
   }
-  return units;
+  return items;
 }
 
 void Upkeep::rescue(Time now) {

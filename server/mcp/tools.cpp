@@ -215,13 +215,13 @@ json Tools::sweep(const json& arguments, Dialogue& dialogue) {
   api::TableWriter writer(sweep, api::TableForm::json, std::nullopt,
                           api::provenance_members("table", *whole.document));
   std::string table = writer.head();
-  std::vector<std::uint64_t> units(sweep.units());
-  std::iota(units.begin(), units.end(), std::uint64_t{0});
+  std::vector<std::uint64_t> items(sweep.items());
+  std::iota(items.begin(), items.end(), std::uint64_t{0});
   std::uint64_t point = 0;
   News news(dialogue);
   const std::string id = "sweep-" + std::to_string(++sweeps_);
-  runner().run_units(
-      {id, document, sweep, units, dialogue.stop(), {}, [&](const std::vector<api::PointOutcome>& outcomes) {
+  runner().run_items(
+      {id, document, sweep, items, dialogue.stop(), {}, [&](const std::vector<api::PointOutcome>& outcomes) {
          for (const api::PointOutcome& outcome : outcomes) {
            writer.append_row(point++, outcome, table);
          }

@@ -95,10 +95,10 @@ bool Neighbours::look_for_work() {
   for (std::size_t i = 0; i < std::min(idle, static_cast<std::size_t>(work->jobs)); ++i) {
     context_.handoffs.ring();
   }
-  if (work->units) {
+  if (work->items) {
     context_.sweeps.look_again();
   }
-  return idle > 0 && (work->jobs > 0 || work->units);
+  return idle > 0 && (work->jobs > 0 || work->items);
 }
 
 /// Publishes the progress of other processes to the followers in this process.

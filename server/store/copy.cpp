@@ -163,14 +163,14 @@ Time stored_at(const SweepRecord& sweep) {
   return sweep.finished.value_or(sweep.started.value_or(sweep.created));
 }
 
-/// Claims on all units of a sweep in the target, a pack of points each.
-StatusOr<std::vector<UnitClaim>> claim_all(Store& to, const SweepRecord& sweep, std::uint64_t unit_points) {
+/// Claims on all items of a sweep in the target, a pack of points each.
+StatusOr<std::vector<ItemClaim>> claim_all(Store& to, const SweepRecord& sweep, std::uint64_t item_points) {
   const Time started = sweep.started.value_or(sweep.created);
-  const std::uint64_t most = std::max<std::uint64_t>(1, kPointsAtOnce / unit_points);
-  const std::uint64_t units = static_cast<std::uint64_t>(sweep.points) / unit_points;
-  std::vector<UnitClaim> claims;
-  for (std::uint64_t claimed = 0; claimed < units; claimed += claims.back().units.count) {
-    StatusOr<std::optional<UnitClaim>> claim =
+  const std::uint64_t most = std::max<std::uint64_t>(1, kPointsAtOnce / item_points);
+  const std::uint64_t items = static_cast<std::uint64_t>(sweep.points) / item_points;
+  std::vector<ItemClaim> claims;
+  for (std::uint64_t claimed = 0; claimed < items; claimed += claims.back().items.count) {
+    StatusOr<std::optional<ItemClaim>> claim =
         to.sweeps().claim(sweep.id, most, {kHolder, stored_at(sweep)}, started);
     if (!claim.ok() || !*claim) {
       return claim.ok() ? Status(StatusCode::conflict, "others use the target") : claim.status();
@@ -180,17 +180,17 @@ StatusOr<std::vector<UnitClaim>> claim_all(Store& to, const SweepRecord& sweep, 
   return claims;
 }
 
-/// Stores the rows of a sweep. All units are claimed before rows are stored, since units without rows are
+/// Stores the rows of a sweep. All items are claimed before rows are stored, since items without rows are
 /// given out again.
-Status copy_rows(Store& from, Store& to, const SweepRecord& sweep, std::uint64_t unit_points) {
-  const StatusOr<std::vector<UnitClaim>> claims = claim_all(to, sweep, unit_points);
+Status copy_rows(Store& from, Store& to, const SweepRecord& sweep, std::uint64_t item_points) {
+  const StatusOr<std::vector<ItemClaim>> claims = claim_all(to, sweep, item_points);
   if (!claims.ok()) {
     return claims.status();
   }
-  for (const UnitClaim& claim : *claims) {
-    const UnitRun& run = claim.units;
+  for (const ItemClaim& claim : *claims) {
+    const ItemRun& run = claim.items;
     std::vector<PointRow> rows;
-    Status status = from.sweeps().each_row(sweep.id, {run.first * unit_points, run.count * unit_points, {}},
+    Status status = from.sweeps().each_row(sweep.id, {run.first * item_points, run.count * item_points, {}},
                                            [&](std::uint64_t point, const api::PointOutcome& outcome) {
                                              rows.push_back({point, outcome});
                                              return true;
@@ -211,9 +211,9 @@ Status copy_sweep(Store& from, Store& to, const SweepRecord& sweep) {
     return document.ok() ? missing(sweep.id) : document.status();
   }
   const api::SweepOutcome read = api::read_sweep(**document);
-  const std::uint64_t unit_points = read.sweep ? read.sweep->unit_size() : 1;
+  const std::uint64_t item_points = read.sweep ? read.sweep->item_size() : 1;
   NewSweep copy{sweep.id, sweep.title, **document, sweep.points, sweep.created, sweep.owner};
-  copy.unit_points = static_cast<std::int64_t>(unit_points);
+  copy.item_points = static_cast<std::int64_t>(item_points);
   copy.analysis_type = sweep.analysis_type;
   copy.annotations = sweep.annotations;
   const bool ended = is_final(sweep.state);
@@ -223,7 +223,7 @@ Status copy_sweep(Store& from, Store& to, const SweepRecord& sweep) {
   if (const StatusOr<Submitted> submitted = to.sweeps().submit(copy); !submitted.ok()) {
     return submitted.status();
   }
-  if (Status status = sweep.done() > 0 ? copy_rows(from, to, sweep, unit_points) : Status(); !status.ok()) {
+  if (Status status = sweep.done() > 0 ? copy_rows(from, to, sweep, item_points) : Status(); !status.ok()) {
     return status;
   }
   return sweep.state == JobState::dismissed ? to.sweeps().dismiss(sweep.id, *sweep.finished).status()

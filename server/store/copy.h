@@ -20,7 +20,7 @@ struct CopyCounts {
 /// @brief Copies jobs and sweeps with their documents, results, paths and rows, in the order of arrival. An
 /// entry that the target has already stays, so a copy that was cut short can be run again.
 ///
-/// Not copied: claims and crashes of units of sweeps, callbacks of ended work, keys by which rows of sweeps
+/// Not copied: claims and crashes of items of sweeps, callbacks of ended work, keys by which rows of sweeps
 /// are reused. Unfinished jobs are accepted in the target; an unfinished
 /// sweep keeps its rows and goes on. Memory: one job, or rows of some thousand points.
 /// @param to REQUIRES: goes by the time of its caller; used by nobody else

@@ -14,10 +14,10 @@ LostLease lost_job(std::string_view holder, std::string_view rescuer, std::int64
   return {crashed, crashed && crashes + 1 >= max_crashes};
 }
 
-LostLease lost_units(std::string_view holder, std::string_view rescuer, int max_crashes, HeldUnits& held) {
+LostLease lost_items(std::string_view holder, std::string_view rescuer, int max_crashes, HeldItems& held) {
   const bool crashed = rescuer.empty() || holder != rescuer;
   held.crashes += crashed ? 1 : 0;
-  return {crashed, crashed && held.crashes >= max_crashes && held.units.count == 1};
+  return {crashed, crashed && held.crashes >= max_crashes && held.items.count == 1};
 }
 
 std::string crashed_detail(std::int64_t crashes, std::string_view what) {
@@ -25,7 +25,7 @@ std::string crashed_detail(std::int64_t crashes, std::string_view what) {
          std::string(what) + "; it is not tried again";
 }
 
-std::vector<PointRow> crashed_rows(const HeldUnits& held) {
+std::vector<PointRow> crashed_rows(const HeldItems& held) {
   const std::string detail = crashed_detail(held.crashes, "point");
   std::vector<PointRow> rows;
   const auto first = static_cast<std::uint64_t>(held.first_point());

@@ -24,7 +24,7 @@ struct ToldProgress {
 /// Work that no worker has.
 struct WaitingWork {
   std::int64_t jobs = 0;  ///< accepted jobs
-  bool units = false;     ///< whether a sweep has units that nobody has
+  bool items = false;     ///< whether a sweep has items that nobody has
 };
 
 /// @brief Messages between processes that share a store. Thread-safe. A lost message makes things slower, not

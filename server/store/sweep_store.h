@@ -49,34 +49,34 @@ class SweepStore {
   virtual Status add_key(std::string_view id, const UsedKey& key) = 0;
   /// Number of accepted and running sweeps.
   virtual StatusOr<std::int64_t> unfinished() = 0;
-  /// Ids of sweeps with units that nobody has: the oldest of each owner, then the second of each, and so on.
-  virtual StatusOr<std::vector<std::string>> with_units() = 0;
+  /// Ids of sweeps with items that nobody has: the oldest of each owner, then the second of each, and so on.
+  virtual StatusOr<std::vector<std::string>> with_items() = 0;
   /// An accepted or running sweep, or empty.
   virtual StatusOr<std::optional<OpenSweep>> open(std::string_view id) = 0;
 
-  /// @brief Gives at most `most` units that nobody has to the caller, and makes the sweep running. Units
-  /// during which a process died come last, and fewer at a time (most_after_crashes()). Empty when no unit is
+  /// @brief Gives at most `most` items that nobody has to the caller, and makes the sweep running. Items
+  /// during which a process died come last, and fewer at a time (most_after_crashes()). Empty when no item is
   /// free; `conflict` when the sweep is neither accepted nor running. The claim survives the death of the
-  /// process, not that of the machine. Points of the units may have rows: retry() joins units that failed.
-  virtual StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most,
+  /// process, not that of the machine. Points of the items may have rows: retry() joins items that failed.
+  virtual StatusOr<std::optional<ItemClaim>> claim(std::string_view id, std::uint64_t most,
                                                    const Lease& lease, Time now) = 0;
   /// Renews the leases of claims that hold; returns the numbers of the others.
-  virtual StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>& claims, Time until,
+  virtual StatusOr<std::vector<std::int64_t>> renew(const std::vector<ItemClaim>& claims, Time until,
                                                     Time now) = 0;
-  /// @brief Stores rows and ends the claim; units of which a point has no row are given out again. A point
+  /// @brief Stores rows and ends the claim; items of which a point has no row are given out again. A point
   /// that has a row keeps it. The sweep ends when all points have a row. `conflict`, and nothing is stored,
   /// when the claim does not hold or the sweep is not running.
-  /// @param rows rows of points of the units
+  /// @param rows rows of points of the items
   /// @param usage of computing them; counts for the owner (Store::ledger())
-  virtual StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows,
+  virtual StatusOr<SweepRecord> put(const ItemClaim& claim, const std::vector<PointRow>& rows,
                                     const WorkUsage& usage, Time now) = 0;
-  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) {
+  StatusOr<SweepRecord> put(const ItemClaim& claim, const std::vector<PointRow>& rows, Time now) {
     return put(claim, rows, {}, now);
   }
-  /// @brief Ends every claim, since its process is known to be gone (see Store::recover()): units are given
-  /// out again; a unit that was claimed alone at crash number `max_crashes` gets rows with the code
+  /// @brief Ends every claim, since its process is known to be gone (see Store::recover()): items are given
+  /// out again; an item that was claimed alone at crash number `max_crashes` gets rows with the code
   /// "crashed".
-  /// @return number of units that are given out again
+  /// @return number of items that are given out again
   virtual StatusOr<std::int64_t> recover(int max_crashes, Time now) = 0;
   /// Ends claims whose lease has run out, as recover() does; leases of `worker` do not count as crashes.
   virtual StatusOr<std::int64_t> rescue(std::string_view worker, int max_crashes, Time now) = 0;

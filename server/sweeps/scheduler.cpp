@@ -11,7 +11,7 @@ constexpr double kShortestChunk = 0.1;
 constexpr double kLongestChunk = 1.0;
 constexpr double kStoreShare = 0.05;
 constexpr std::uint64_t kFirstChunk = 2;
-constexpr std::uint64_t kLargestChunk = 8192;  // units; all are prepared before the first is computed
+constexpr std::uint64_t kLargestChunk = 8192;  // items; all are prepared before the first is computed
 
 }  // namespace
 
@@ -67,14 +67,14 @@ void SweepScheduler::store_took(double seconds) {
       before > 0.0 ? 0.5 * (before + seconds) : seconds;  // a lost update between threads does not matter
 }
 
-/// Largest number of units in a chunk that should take `seconds`.
-std::uint64_t SweepScheduler::most_units(const ActiveSweep& sweep, double seconds) {
-  if (sweep.sweep.unit_size() > 1) {
+/// Largest number of items in a chunk that should take `seconds`.
+std::uint64_t SweepScheduler::most_items(const ActiveSweep& sweep, double seconds) {
+  if (sweep.sweep.item_size() > 1) {
     return 1;  // a curve takes long: another worker may have the next one
   }
-  if (sweep.seconds_per_unit_ > 0.0) {
+  if (sweep.seconds_per_item_ > 0.0) {
     return static_cast<std::uint64_t>(
-        std::clamp(seconds / sweep.seconds_per_unit_, 1.0, static_cast<double>(kLargestChunk)));
+        std::clamp(seconds / sweep.seconds_per_item_, 1.0, static_cast<double>(kLargestChunk)));
   }
   return kFirstChunk;
 }
@@ -109,7 +109,7 @@ std::optional<SweepTurn> SweepScheduler::next(double seconds, const OwnersInTurn
   }
   ActiveSweep& sweep = **first;
   served_[sweep.owner] = sweep.served_ = ++turns_;
-  return SweepTurn{*first, most_units(sweep, seconds), sweep.changes_};
+  return SweepTurn{*first, most_items(sweep, seconds), sweep.changes_};
 }
 
 void SweepScheduler::exhausted(const SweepTurn& turn) {
@@ -133,14 +133,14 @@ void SweepScheduler::refresh() {
 void SweepScheduler::give_back(const Chunk& chunk, std::uint64_t done, double seconds) {
   const std::lock_guard guard(mutex_);
   ActiveSweep& sweep = *chunk.sweep;
-  if (done < chunk.claim.units.count) {
+  if (done < chunk.claim.items.count) {
     ++sweep.changes_;
     sweep.exhausted_ = false;
   }
   if (done > 0) {
     const double latest = seconds / static_cast<double>(done);
-    sweep.seconds_per_unit_ =
-        sweep.seconds_per_unit_ > 0.0 ? 0.5 * (sweep.seconds_per_unit_ + latest) : latest;
+    sweep.seconds_per_item_ =
+        sweep.seconds_per_item_ > 0.0 ? 0.5 * (sweep.seconds_per_item_ + latest) : latest;
   }
   look();
 }
@@ -172,7 +172,7 @@ void SweepScheduler::remove(const std::shared_ptr<ActiveSweep>& sweep) {
   remove_if([&](const auto& other) { return other == sweep; });
 }
 
-SweepScheduler::Watch::Watch(SweepScheduler& scheduler, const UnitClaim& claim, Time since)
+SweepScheduler::Watch::Watch(SweepScheduler& scheduler, const ItemClaim& claim, Time since)
     : scheduler_(scheduler), claim_(claim), held_since_(since), since_(since) {
   const std::lock_guard guard(scheduler_.mutex_);
   scheduler_.watches_.push_back(this);
@@ -226,9 +226,9 @@ void SweepScheduler::stop_claim(std::int64_t number, StopReason reason) {
   stop_if([&](const Watch& watch) { return watch.claim_.number == number; }, reason);
 }
 
-std::vector<UnitClaim> SweepScheduler::older(Time since) const {
+std::vector<ItemClaim> SweepScheduler::older(Time since) const {
   const std::lock_guard guard(mutex_);
-  std::vector<UnitClaim> held;
+  std::vector<ItemClaim> held;
   for (const Watch* watch : watches_) {
     if (watch->held_since_ <= since) {
       held.push_back(watch->claim_);

@@ -38,7 +38,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   NewSweep sweep{new_id(world_.environment), read.sweep->title(),
                  std::string(envelope.text), static_cast<std::int64_t>(read.sweep->size()),
                  world_.environment.now(),   order.owner};
-  sweep.unit_points = static_cast<std::int64_t>(read.sweep->unit_size());
+  sweep.item_points = static_cast<std::int64_t>(read.sweep->item_size());
   sweep.reuse = order.reuse;
   sweep.idempotency = key_of(order);
   sweep.quotas = world_.limits.quotas;

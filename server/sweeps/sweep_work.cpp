@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "api/point_outcome.h"
-#include "api/sweep_unit.h"
+#include "api/sweep_item.h"
 #include "server/bell.h"
-#include "server/store/units.h"
-#include "server/worker/unit.h"
+#include "server/store/items.h"
+#include "server/worker/sweep_item.h"
 
 namespace snapthrough::server {
 namespace {
 
-/// A chunk ends after the current unit when it has taken this many times the seconds that it should take.
+/// A chunk ends after the current item when it has taken this many times the seconds that it should take.
 constexpr double kLongest = 2.5;
 /// Length of a chunk in seconds while jobs wait.
 constexpr double kWhileJobsWait = 0.02;
@@ -29,48 +29,48 @@ std::vector<PointRow> not_stored(std::vector<PointRow> rows, const Status& statu
   return rows;
 }
 
-/// A unit without rows.
+/// An item without rows.
 struct Pending {
   std::uint64_t number = 0;
-  SweepUnit unit;
+  SweepItem item;
   std::vector<std::string> keys;  ///< keys of its points
 };
 
 struct Work {
-  std::vector<PointRow> rows;    ///< rows of units that are done
-  std::vector<Pending> pending;  ///< units that are neither computed nor found in the store
+  std::vector<PointRow> rows;    ///< rows of items that are done
+  std::vector<Pending> pending;  ///< items that are neither computed nor found in the store
   WorkUsage usage;               ///< what computing rows took
 };
 
-/// Units of a chunk that lack a row in the store. When the store can't be read, all units: a point that has a
+/// Items of a chunk that lack a row in the store. When the store can't be read, all items: a point that has a
 /// row keeps it.
-std::vector<UnitRun> units_left(const Chunk& chunk, SweepStore& store) {
-  const UnitRun& units = chunk.claim.units;
-  const std::uint64_t size = chunk.sweep->sweep.unit_size();
-  UnitRows stored(units, static_cast<std::int64_t>(size));
-  const Status read = store.each_row(chunk.claim.sweep, {units.first * size, units.count * size, {}},
+std::vector<ItemRun> items_left(const Chunk& chunk, SweepStore& store) {
+  const ItemRun& items = chunk.claim.items;
+  const std::uint64_t size = chunk.sweep->sweep.item_size();
+  ItemRows stored(items, static_cast<std::int64_t>(size));
+  const Status read = store.each_row(chunk.claim.sweep, {items.first * size, items.count * size, {}},
                                      [&](std::uint64_t point, const api::PointOutcome&) {
                                        stored.add(point);
                                        return true;
                                      });
-  return read.ok() ? stored.left() : std::vector<UnitRun>{units};
+  return read.ok() ? stored.left() : std::vector<ItemRun>{items};
 }
 
-std::vector<Pending> pending_units(const Chunk& chunk, SweepStore& store) {
+std::vector<Pending> pending_items(const Chunk& chunk, SweepStore& store) {
   const ActiveSweep& sweep = *chunk.sweep;
   std::shared_ptr<nlohmann::json> document;
   std::vector<Pending> all;
-  for (const UnitRun& run : units_left(chunk, store)) {
+  for (const ItemRun& run : items_left(chunk, store)) {
     for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
-      const SweepUnit unit(sweep.sweep, number);
-      std::vector<std::string> keys = unit.keys(sweep.outputs, sweep.owner, document);
-      all.push_back({number, unit, std::move(keys)});
+      const SweepItem item(sweep.sweep, number);
+      std::vector<std::string> keys = item.keys(sweep.outputs, sweep.owner, document);
+      all.push_back({number, item, std::move(keys)});
     }
   }
   return all;
 }
 
-/// Takes rows of earlier points with the same keys, for units whose points all have one.
+/// Takes rows of earlier points with the same keys, for items whose points all have one.
 void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
   if (!chunk.sweep->reuse) {
     return;
@@ -81,10 +81,10 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
   }
   auto found = world.store.find_outputs(keys);
   if (!found.ok()) {
-    return;  // the units are computed
+    return;  // the items are computed
   }
   std::vector<Pending> unknown;
-  auto outputs = found->begin();  // output of the first point of the unit
+  auto outputs = found->begin();  // output of the first point of the item
   for (Pending& pending : work.pending) {
     const auto end = outputs + static_cast<std::ptrdiff_t>(pending.keys.size());
     if (std::find(outputs, end, std::nullopt) != end) {
@@ -93,7 +93,7 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
       continue;
     }
     for (std::size_t i = 0; i < pending.keys.size(); ++i, ++outputs) {
-      work.rows.push_back({pending.unit.first() + i, {**outputs, "", ""}, std::move(pending.keys[i]), true});
+      work.rows.push_back({pending.item.first() + i, {**outputs, "", ""}, std::move(pending.keys[i]), true});
     }
   }
   work.pending = std::move(unknown);
@@ -104,26 +104,26 @@ bool is_late(double seconds, double chunk, const SweepSurroundings& world) {
   return seconds > kLongest * chunk || (seconds > kWhileJobsWait && world.waiting.value() > 0);
 }
 
-/// Rows of a unit that was computed, or stopped at the time limit.
+/// Rows of an item that was computed, or stopped at the time limit.
 void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const SweepSurroundings& world,
               std::vector<PointRow>& rows) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (outcomes[i].code == kCancelled) {
-      outcomes[i] = {"", "time_limit", pending.unit.too_long(world.limits.longest_run)};
+      outcomes[i] = {"", "time_limit", pending.item.too_long(world.limits.longest_run)};
     }
-    rows.push_back({pending.unit.first() + i, std::move(outcomes[i]), std::move(pending.keys[i])});
+    rows.push_back({pending.item.first() + i, std::move(outcomes[i]), std::move(pending.keys[i])});
   }
 }
 
-/// Computes pending units until about `seconds` have passed, jobs wait, or a stop is requested. Returns how
+/// Computes pending items until about `seconds` have passed, jobs wait, or a stop is requested. Returns how
 /// many were computed.
 std::size_t compute(const Chunk& chunk, double seconds, const SweepSurroundings& world, Runner& runner,
                     SweepScheduler::Watch& watch, Work& work) {
   const double start = world.environment.monotonic_seconds();
-  std::vector<std::uint64_t> units;
-  units.reserve(work.pending.size());
+  std::vector<std::uint64_t> items;
+  items.reserve(work.pending.size());
   for (const Pending& pending : work.pending) {
-    units.push_back(pending.number);
+    items.push_back(pending.number);
   }
   std::size_t next = 0;
   const auto late = [&] { return is_late(world.environment.monotonic_seconds() - start, seconds, world); };
@@ -136,8 +136,8 @@ std::size_t compute(const Chunk& chunk, double seconds, const SweepSurroundings&
     watch.begin(steady_time(world.environment));
   };
   watch.begin(steady_time(world.environment));
-  work.usage = runner.run_units(
-      {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, units, watch.token(), late, take});
+  work.usage = runner.run_items(
+      {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, items, watch.token(), late, take});
   return next;
 }
 
@@ -159,7 +159,7 @@ StatusOr<SweepChange> SweepWork::dismiss(const std::string& id) {
 }
 
 bool SweepWork::renew_leases(Time since, Time until, Time now) {
-  const std::vector<UnitClaim> held = scheduler_.older(since);
+  const std::vector<ItemClaim> held = scheduler_.older(since);
   if (held.empty()) {
     return true;
   }
@@ -171,10 +171,10 @@ bool SweepWork::renew_leases(Time since, Time until, Time now) {
 }
 
 void SweepWork::rescue(Time now) {
-  const StatusOr<std::int64_t> units = world_.store.rescue(world_.instance, world_.limits.max_crashes, now);
-  if (units.ok() && *units > 0) {
+  const StatusOr<std::int64_t> items = world_.store.rescue(world_.instance, world_.limits.max_crashes, now);
+  if (items.ok() && *items > 0) {
     world_.log.write(LogLevel::warning, "sweep",
-                     {{"units", *units}, {"detail", std::string_view("the lease of the worker ran out")}});
+                     {{"units", *items}, {"detail", std::string_view("the lease of the worker ran out")}});
     wake();
   }
 }
@@ -196,7 +196,7 @@ void SweepWork::load() {
     return;  // another thread loads
   }
   scheduler_.refresh();
-  const StatusOr<std::vector<std::string>> ids = world_.store.with_units();
+  const StatusOr<std::vector<std::string>> ids = world_.store.with_items();
   bool all = ids.ok();
   if (ids.ok()) {
     std::erase_if(foreign_, [&](const std::string& id) {
@@ -260,9 +260,9 @@ std::optional<Chunk> SweepWork::take(const OwnersInTurn& owners) {
     const Time now = world_.environment.now();
     const double start = world_.environment.monotonic_seconds();
     const Lease lease{world_.instance, now + world_.limits.lease};
-    StatusOr<std::optional<UnitClaim>> claim = world_.store.claim(id, turn->most, lease, now);
+    StatusOr<std::optional<ItemClaim>> claim = world_.store.claim(id, turn->most, lease, now);
     if (claim.ok() && claim->has_value()) {
-      if (scheduler_.has_units()) {
+      if (scheduler_.has_items()) {
         world_.handoffs.ring();  // wakes the next worker
       }
       return Chunk{turn->sweep, **std::move(claim), world_.environment.monotonic_seconds() - start};
@@ -289,13 +289,13 @@ bool SweepWork::do_next(Runners& runners, const std::stop_token& stop, const Own
   const std::stop_callback on_dismissal(chunk->sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
   const double start = world_.environment.monotonic_seconds();
   Work work;
-  work.pending = pending_units(*chunk, world_.store);
+  work.pending = pending_items(*chunk, world_.store);
   look_up(*chunk, world_, work);
   const std::size_t computed =
       compute(*chunk, scheduler_.chunk_seconds(), world_, runners.of(chunk->sweep->owner), watch, work);
   const double seconds = world_.environment.monotonic_seconds() - start;
   runners.note(chunk->sweep->owner, work.usage, seconds);
-  const std::uint64_t done = chunk->claim.units.count - (work.pending.size() - computed);
+  const std::uint64_t done = chunk->claim.items.count - (work.pending.size() - computed);
   Status status = settle(*chunk, work.rows, work.usage, done, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
     pause(stop, kRetryPause);

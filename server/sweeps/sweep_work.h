@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Work on sweeps: claims units, finds or computes their rows, and stores them.
+/// Work on sweeps: claims items, finds or computes their rows, and stores them.
 
 #include <atomic>
 #include <cstdint>
@@ -50,29 +50,29 @@ class SweepWork {
  public:
   explicit SweepWork(const SweepSurroundings& surroundings) : world_(surroundings) {}
 
-  /// @brief Works on a chunk of the sweep that is next in turn: units that take about 0.1 s. Returns false
-  /// without units.
+  /// @brief Works on a chunk of the sweep that is next in turn: items that take about 0.1 s. Returns false
+  /// without items.
   ///
-  /// A sweep whose document this version can't read is left to workers of other versions and logged once. A
-  /// unit whose points were all computed before is not computed again. The row of a point that fails has an
-  /// error. A chunk ends early when jobs wait, when it takes long, or when the service stops; units without
+  /// A sweep whose document this version can't read is left to workers of other versions and logged once. An
+  /// item whose points were all computed before is not computed again. The row of a point that fails has an
+  /// error. A chunk ends early when jobs wait, when it takes long, or when the service stops; items without
   /// rows are given out again. While the store can't be written, the chunk waits and tries to store its rows
   /// again.
   bool do_next(Runners& runners, const std::stop_token& stop, const OwnersInTurn& owners = {});
   /// Whether do_next() may find something.
-  [[nodiscard]] bool is_left() const { return scheduler_.has_units() || unloaded_; }
-  /// Announces new units: wakes a worker of this process and, by the bell, other processes.
+  [[nodiscard]] bool is_left() const { return scheduler_.has_items() || unloaded_; }
+  /// Announces new items: wakes a worker of this process and, by the bell, other processes.
   void wake();
-  /// Wakes a worker of this process; other processes know of the units.
+  /// Wakes a worker of this process; other processes know of the items.
   void look_again();
   /// Dismisses the sweep and asks its workers to stop; its rows stay.
   StatusOr<SweepChange> dismiss(const std::string& id);
-  /// Stops units that began before `since` (steady_time()), for the time limit.
+  /// Stops items that began before `since` (steady_time()), for the time limit.
   void stop_older(Time since) { scheduler_.stop_older(since); }
   /// @brief Renews, until `until`, leases that are held since `since` (steady_time()) or longer and have not
   /// run out at `now`; asks workers whose lease was lost to stop. @return whether the store did it
   bool renew_leases(Time since, Time until, Time now);
-  /// Gives units out again whose lease has run out.
+  /// Gives items out again whose lease has run out.
   void rescue(Time now);
   /// Number of sweeps in the scheduler.
   [[nodiscard]] std::size_t count() const { return scheduler_.count(); }
@@ -84,7 +84,7 @@ class SweepWork {
   bool load_one(const std::string& id);
   void leave(const std::string& id, const Finding& finding);
   std::optional<Chunk> take(const OwnersInTurn& owners);
-  /// Stores rows and ends the chunk. @param done units that need no more work
+  /// Stores rows and ends the chunk. @param done items that need no more work
   Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, const WorkUsage& usage,
                 std::uint64_t done, double seconds);
   void stored(const SweepRecord& record, const std::vector<PointRow>& rows);
@@ -93,7 +93,7 @@ class SweepWork {
   SweepScheduler scheduler_;
   ProgressTopic<SweepRecord> news_;
   std::mutex loading_;
-  std::set<std::string> foreign_;  ///< sweeps with units whose document this version can't read; by loading_
+  std::set<std::string> foreign_;  ///< sweeps with items whose document this version can't read; by loading_
   std::atomic<bool> unloaded_ = true;  ///< the store may have sweeps that the scheduler does not have
 };
 

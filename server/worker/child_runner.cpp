@@ -33,7 +33,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Interval at which UnitTask::enough is asked.
+/// Interval at which ItemTask::enough is asked.
 constexpr std::chrono::milliseconds kLook{20};
 /// Bytes of a frame in addition to the memory limit of an analysis.
 constexpr std::uint64_t kMostBeside = 1 << 20;
@@ -69,7 +69,7 @@ void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
 struct ChildRunner::Watch {
   std::stop_token stop;
   std::function<bool(Frame&)> take;        ///< handles a frame. @return whether it was the last one
-  std::function<bool()> enough = nullptr;  ///< see UnitTask::enough; null for jobs
+  std::function<bool()> enough = nullptr;  ///< see ItemTask::enough; null for jobs
 };
 
 std::string own_executable() {
@@ -298,7 +298,7 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
         return End::answered;
       }
       if (watch.enough) {
-        begin = Clock::now();  // the next unit begins
+        begin = Clock::now();  // the next item begins
       }
     }
     if (!deadline && watch.stop.stop_requested()) {
@@ -368,7 +368,7 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
 }
 
 /// Returns the number of the sweep in the process; sends the sweep if the process does not know it.
-std::uint64_t ChildRunner::send_sweep(const UnitTask& task) {
+std::uint64_t ChildRunner::send_sweep(const ItemTask& task) {
   if (const auto known = sweeps_.find(task.id); known != sweeps_.end()) {
     return known->second;
   }
@@ -387,31 +387,31 @@ std::uint64_t ChildRunner::send_sweep(const UnitTask& task) {
   return number;
 }
 
-ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& told, bool at_once,
+ChildRunner::End ChildRunner::attempt_items(const ItemTask& task, std::size_t& told, bool at_once,
                                             WorkUsage& usage) {
   if (!has_process(task.stop)) {
     return End::killed;
   }
   const std::uint64_t number = send_sweep(task);
   const std::size_t before = told;
-  const auto rest = task.units.subspan(told);
+  const auto rest = task.items.subspan(told);
   std::string body;
   RecordWriter writer(body);
   writer.put(options_.memory);
   writer.put(number);
   writer.put(at_once);
   writer.put(std::vector<std::uint64_t>(rest.begin(), rest.end()));
-  std::vector<api::PointOutcome> outcomes;  // outcomes of an incomplete unit
+  std::vector<api::PointOutcome> outcomes;  // outcomes of an incomplete item
   Watch watch{task.stop,
               [&](Frame& frame) {
                 const bool done = frame.type == FrameType::done;
                 RecordReader reader(frame.body);
                 while (!done && !reader.at_end()) {
-                  if (told == task.units.size()) {
+                  if (told == task.items.size()) {
                     throw std::runtime_error("there are more outcomes than points");
                   }
                   outcomes.push_back(reader.get<api::PointOutcome>());
-                  if (outcomes.size() == task.sweep.unit_size()) {
+                  if (outcomes.size() == task.sweep.item_size()) {
                     ++told;
                     task.tell(std::exchange(outcomes, {}));
                   }
@@ -420,33 +420,33 @@ ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& t
                   usage.add(reader.get<WorkUsage>());
                 }
                 if (done && (!outcomes.empty() || (told == before && !task.stop.stop_requested()))) {
-                  throw std::runtime_error("at least one unit is computed, and each wholly");
+                  throw std::runtime_error("at least one item is computed, and each wholly");
                 }
                 return done;
               },
               task.enough};
-  return run_task(FrameType::units, body, watch);
+  return run_task(FrameType::items, body, watch);
 }
 
-/// A process without memory first sends all outcomes, so that the next unit is the cause. A crashed process
-/// may not have sent all; a second attempt sends each at once. A single remaining unit is the cause.
-WorkUsage ChildRunner::run_units(const UnitTask& task) {
+/// A process without memory first sends all outcomes, so that the next item is the cause. A crashed process
+/// may not have sent all; a second attempt sends each at once. A single remaining item is the cause.
+WorkUsage ChildRunner::run_items(const ItemTask& task) {
   WorkUsage usage;
   int crashes = 0;
-  bool at_once = task.units.size() == 1;
-  for (std::size_t told = 0; told < task.units.size();) {
+  bool at_once = task.items.size() == 1;
+  for (std::size_t told = 0; told < task.items.size();) {
     const std::size_t before = told;
-    const End end = attempt_units(task, told, at_once, usage);
+    const End end = attempt_items(task, told, at_once, usage);
     if (end == End::answered) {
       return usage;
     }
     crashes = (told == before ? crashes : 0) + (end == End::crashed ? 1 : 0);
     const bool sure = at_once || end != End::crashed;
     at_once = at_once || end == End::crashed;
-    if (told < task.units.size() && sure && (end != End::crashed || crashes >= options_.max_crashes)) {
+    if (told < task.items.size() && sure && (end != End::crashed || crashes >= options_.max_crashes)) {
       const JobFailure failure = failure_of(end, crashes);
       ++told;
-      task.tell(std::vector<api::PointOutcome>(task.sweep.unit_size(), {"", failure.code, failure.detail}));
+      task.tell(std::vector<api::PointOutcome>(task.sweep.item_size(), {"", failure.code, failure.detail}));
       crashes = 0;
     }
     if (task.stop.stop_requested()) {

@@ -49,7 +49,7 @@ class ChildRunner final : public Runner {
   ~ChildRunner() override;
 
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
-  WorkUsage run_units(const UnitTask& task) override;
+  WorkUsage run_items(const ItemTask& task) override;
   void give_way() override;
 
   /// Returns the id of the process, for tests that damage it; 0: there is none.
@@ -69,14 +69,14 @@ class ChildRunner final : public Runner {
   [[nodiscard]] End run_task(FrameType type, std::string_view body, Watch& watch);
   [[nodiscard]] bool send(FrameType type, std::string_view body) const;
   [[nodiscard]] bool control(FrameType type) const;
-  [[nodiscard]] std::uint64_t send_sweep(const UnitTask& task);
+  [[nodiscard]] std::uint64_t send_sweep(const ItemTask& task);
   [[nodiscard]] End attend(Watch& watch);
   [[nodiscard]] std::optional<bool> take_frame(Watch& watch);
   static void pass_on(const Frame& news, const Hooks& hooks);
   void retire();
   [[nodiscard]] End end_of_process(bool killed);
-  /// Computes the remaining units of a list, until the process has answered or ended.
-  [[nodiscard]] End attempt_units(const UnitTask& task, std::size_t& told, bool at_once, WorkUsage& usage);
+  /// Computes the remaining items of a list, until the process has answered or ended.
+  [[nodiscard]] End attempt_items(const ItemTask& task, std::size_t& told, bool at_once, WorkUsage& usage);
   [[nodiscard]] JobFailure failure_of(End end, int crashes) const;
 
   const ChildRunnerOptions options_;

@@ -12,15 +12,15 @@ enum class FrameType : std::uint32_t {
   // to the runner
   job,    ///< body: memory limit, request
   sweep,  ///< body: whether to forget all sweeps, number, document
-  units,  ///< body: memory limit, sweep's number, whether to send each unit at once, units' numbers
+  items,  ///< body: memory limit, sweep's number, whether to send each item at once, items' numbers
   // on the control pipe; tasks are counted from 1, without sweeps
-  enough,  ///< body: number of a task that begins no further unit
+  enough,  ///< body: number of a task that begins no further item
   stop,    ///< body: number of a task that ends now
   // from the runner
   news,      ///< body: progress, critical points and path points since the last news
   job_run,   ///< body: JobRun, the outcome of a job
-  outcomes,  ///< body: outcomes of the points of units, in order
-  done       ///< body: WorkUsage; end of a list of units
+  outcomes,  ///< body: outcomes of the points of items, in order
+  done       ///< body: WorkUsage; end of a list of items
 };
 
 struct Frame {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "server/worker/unit.h"
+#include "server/worker/sweep_item.h"
 
 namespace snapthrough::server {
 
@@ -17,7 +17,7 @@ class LocalRunner final : public Runner {
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override {
     return solve_job(request, solve_, hooks);
   }
-  WorkUsage run_units(const UnitTask& task) override { return compute_units(task, solve_); }
+  WorkUsage run_items(const ItemTask& task) override { return compute_items(task, solve_); }
 
  private:
   const SolveFunction solve_;

@@ -27,20 +27,20 @@ struct JobRun {
   WorkUsage usage = {};
 };
 
-/// Units of a sweep (server/worker/unit.h) that are computed in sequence.
-struct UnitTask {
+/// Items of a sweep (server/worker/sweep_item.h) that are computed in sequence.
+struct ItemTask {
   const std::string& id;        ///< id of the sweep
   const std::string& document;  ///< document of the sweep
   const api::Sweep& sweep;
-  std::span<const std::uint64_t> units;  ///< numbers of the units
+  std::span<const std::uint64_t> items;  ///< numbers of the items
   std::stop_token stop;
-  /// Asked now and then whether the remaining units may wait. At least one unit is computed.
+  /// Asked now and then whether the remaining items may wait. At least one item is computed.
   std::function<bool()> enough = {};
-  /// Called with the outcomes of each unit, in the order of units.
+  /// Called with the outcomes of each item, in the order of items.
   std::function<void(std::vector<api::PointOutcome>)> tell = {};
 };
 
-/// @brief Computes jobs and units of sweeps, one at a time, on one thread. Errors are values: failures with a
+/// @brief Computes jobs and items of sweeps, one at a time, on one thread. Errors are values: failures with a
 /// code of the solver, "memory_limit", "crashed" or "internal_error". After a stop request, the current
 /// computation ends with the code "cancelled".
 class Runner {
@@ -54,9 +54,9 @@ class Runner {
 
   /// @param request submitted document of the job
   [[nodiscard]] virtual JobRun run_job(std::string_view request, const Hooks& hooks) = 0;
-  /// Computes units; ends early when `enough` returns true, or after "cancelled" outcomes.
+  /// Computes items; ends early when `enough` returns true, or after "cancelled" outcomes.
   /// @return what that took; the part of a process that died is not known
-  virtual WorkUsage run_units(const UnitTask& task) = 0;
+  virtual WorkUsage run_items(const ItemTask& task) = 0;
   /// Lets all later tasks have a low priority, if what computes has a priority of its own.
   virtual void give_way() {}
 };

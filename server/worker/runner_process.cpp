@@ -19,7 +19,7 @@
 #include "server/worker/confinement.h"
 #include "server/worker/frame.h"
 #include "server/worker/record.h"
-#include "server/worker/unit.h"
+#include "server/worker/sweep_item.h"
 
 namespace snapthrough::server {
 namespace {
@@ -92,7 +92,7 @@ class Control {
     heed();
     return stop_.get_token();
   }
-  /// Returns whether the current task must begin no further unit.
+  /// Returns whether the current task must begin no further item.
   [[nodiscard]] bool enough() const { return enough_ == task_; }
 
  private:
@@ -193,8 +193,8 @@ class RunnerProcess {
         case FrameType::sweep:
           keep_sweep(reader);
           break;
-        case FrameType::units:
-          run_units(reader);
+        case FrameType::items:
+          run_items(reader);
           break;
         default:
           std::abort();
@@ -238,14 +238,14 @@ class RunnerProcess {
     }
   }
 
-  /// Computes units. Outcomes wait up to 10 ms, unless `at_once`, and longer only while a unit runs.
-  void run_units(RecordReader& reader) {
+  /// Computes items. Outcomes wait up to 10 ms, unless `at_once`, and longer only while an item runs.
+  void run_items(RecordReader& reader) {
     constexpr std::chrono::milliseconds kUntold{10};
     const std::stop_token stop = control_.begin();
     memory_.set(reader.get<std::int64_t>());
     const api::Sweep& sweep = sweeps_.at(reader.get<std::uint64_t>());
     const bool at_once = reader.get<bool>();
-    const auto units = reader.get<std::vector<std::uint64_t>>();
+    const auto items = reader.get<std::vector<std::uint64_t>>();
     static const std::string kNotNeeded;
     auto told = std::chrono::steady_clock::now();
     const auto tell = [&](const std::vector<api::PointOutcome>& outcomes) {
@@ -263,8 +263,8 @@ class RunnerProcess {
         }
       }
     };
-    WorkUsage usage = compute_units(
-        {kNotNeeded, kNotNeeded, sweep, units, stop, [this] { return control_.enough(); }, tell}, solve_);
+    WorkUsage usage = compute_items(
+        {kNotNeeded, kNotNeeded, sweep, items, stop, [this] { return control_.enough(); }, tell}, solve_);
     untold().tell();
     usage.peak_bytes = memory_.peak();
     std::string body;

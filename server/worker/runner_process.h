@@ -17,7 +17,7 @@ inline constexpr int kControlPipe = 3;
 
 /// @brief Computes the tasks of frames from kTaskSocket in sequence, until the service disconnects.
 /// @param parent process with which the runner ends
-/// @param solve solves jobs and points; SweepUnit::compute() follows curves
+/// @param solve solves jobs and points; SweepItem::compute() follows curves
 /// @return exit status of the process
 [[nodiscard]] int run_runner(int parent, const SolveFunction& solve);
 

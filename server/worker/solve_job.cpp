@@ -7,7 +7,7 @@
 
 #include "api/api.h"
 #include "api/point_outcome.h"
-#include "api/sweep_unit.h"
+#include "api/sweep_item.h"
 #include "server/worker/thread_time.h"
 
 namespace snapthrough::server {

@@ -10,7 +10,7 @@
 
 #include "api/point_outcome.h"
 #include "api/sweep.h"
-#include "api/sweep_unit.h"
+#include "api/sweep_item.h"
 
 namespace snapthrough::api {
 namespace {
@@ -30,7 +30,7 @@ std::vector<json> rows_of(const json& document) {
   }
   std::shared_ptr<json> scratch;
   std::vector<json> rows;
-  for (const PointOutcome& outcome : unit_outcomes(*read.sweep, 0, {}, {}, scratch)) {
+  for (const PointOutcome& outcome : item_outcomes(*read.sweep, 0, {}, {}, scratch)) {
     EXPECT_EQ(outcome.code, "") << outcome.detail;
     rows.push_back(outcome.failed() ? json() : json::parse(outcome.outputs));
   }

@@ -16,8 +16,8 @@
 #include "api/point_outcome.h"
 #include "api/solved_point.h"
 #include "api/sweep.h"
+#include "api/sweep_item.h"
 #include "api/sweep_table.h"
-#include "api/sweep_unit.h"
 #include "solver/solve.h"
 
 namespace snapthrough::api {
@@ -56,9 +56,9 @@ json table_of(const json& document, std::string* outcome_code = nullptr) {
   std::shared_ptr<json> scratch;
   TableWriter writer(*read.sweep, TableForm::json);
   std::string text = writer.head();
-  for (std::uint64_t unit = 0; unit < read.sweep->units(); ++unit) {
-    for (const PointOutcome& outcome : unit_outcomes(*read.sweep, unit, solve, {}, scratch)) {
-      writer.append_row(unit, outcome, text);
+  for (std::uint64_t item = 0; item < read.sweep->items(); ++item) {
+    for (const PointOutcome& outcome : item_outcomes(*read.sweep, item, solve, {}, scratch)) {
+      writer.append_row(item, outcome, text);
       if (outcome_code != nullptr) {
         *outcome_code = outcome.code;
       }

@@ -386,13 +386,13 @@ TEST(Sweep, FollowsTheLastParameter) {
   const SweepOutcome outcome = read(followed());
   ASSERT_THAT(outcome.findings, IsEmpty());
   EXPECT_TRUE(outcome.sweep->follows());
-  EXPECT_EQ(outcome.sweep->unit_size(), 3U);
+  EXPECT_EQ(outcome.sweep->item_size(), 3U);
   EXPECT_FALSE(outcome.sweep->follows_logarithm());
   const auto between = outcome.sweep->document_between(3, 1.5e-4);
   EXPECT_EQ(between->at("/model/foundations/0/stiffness"_json_pointer), 5);
   EXPECT_EQ(between->at("/model/imperfections/0/amplitude"_json_pointer), 1.5e-4);
   EXPECT_EQ(outcome.sweep->curve_text(3), outcome.sweep->curve_text(5));
-  EXPECT_EQ(read(sound_sweep()).sweep->unit_size(), 1U);
+  EXPECT_EQ(read(sound_sweep()).sweep->item_size(), 1U);
 }
 
 TEST(Sweep, FollowsANamedPointOrTheWholeLocus) {

@@ -4,7 +4,7 @@
 
 Each trial: two fronts and four workers under jobs of two owners and a sweep. Then: everything that was acknowledged is there and
 has ended once and well, the sweep has every row once, and nobody sees what belongs to another owner. A table of recovery
-times (median, worst): from the fault until the jobs that the harmed worker had have ended and its units are free, or, where no
+times (median, worst): from the fault until the jobs that the harmed worker had have ended and its items are free, or, where no
 worker is harmed, until the next job is acknowledged and ended; for hosts that are asked to stop, until they have."""
 
 import argparse
@@ -56,7 +56,7 @@ class Trial:
         return found[0]
 
     def released(self, host, jobs):
-        """Seconds until what that worker had is done: its jobs have ended and its units are somebody else's."""
+        """Seconds until what that worker had is done: its jobs have ended and its items are somebody else's."""
         name = host.instance()
 
         def gone():

@@ -30,15 +30,15 @@ class FuzzedSweeps final : public SweepStore {
   StatusOr<std::vector<UsedKey>> keys(std::string_view) override { return std::vector<UsedKey>(); }
   Status add_key(std::string_view, const UsedKey&) override { return store_is_full(); }
   StatusOr<std::int64_t> unfinished() override { return 0; }
-  StatusOr<std::vector<std::string>> with_units() override { return std::vector<std::string>(); }
+  StatusOr<std::vector<std::string>> with_items() override { return std::vector<std::string>(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return std::optional<OpenSweep>(); }
-  StatusOr<std::optional<UnitClaim>> claim(std::string_view, std::uint64_t, const Lease&, Time) override {
+  StatusOr<std::optional<ItemClaim>> claim(std::string_view, std::uint64_t, const Lease&, Time) override {
     return store_is_full();
   }
-  StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>&, Time, Time) override {
+  StatusOr<std::vector<std::int64_t>> renew(const std::vector<ItemClaim>&, Time, Time) override {
     return store_is_full();
   }
-  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, const WorkUsage&, Time) override {
+  StatusOr<SweepRecord> put(const ItemClaim&, const std::vector<PointRow>&, const WorkUsage&, Time) override {
     return store_is_full();
   }
   StatusOr<std::int64_t> recover(int, Time) override { return 0; }

@@ -250,14 +250,14 @@ TEST(SharedSweeps, ThoseThatOthersWorkOnLeaveRoom) {
     ASSERT_TRUE(add(number));
     scheduler.exhausted(*scheduler.next(0.1));
   }
-  EXPECT_FALSE(scheduler.has_units());
+  EXPECT_FALSE(scheduler.has_items());
   scheduler.refresh();
   EXPECT_EQ(scheduler.count(), 0U);
   EXPECT_TRUE(add(100));
   EXPECT_EQ(scheduler.next(0.1)->sweep->id, id_number(100));
 }
 
-/// A sweep that is put aside has no turns, and goes on when its turn comes again; the units in work stay.
+/// A sweep that is put aside has no turns, and goes on when its turn comes again; the items in work stay.
 TEST(SharedSweeps, OnesPutAsideWaitAndGoOn) {
   SweepScheduler scheduler;
   const std::string document = column_sweep(4);
@@ -274,16 +274,16 @@ TEST(SharedSweeps, OnesPutAsideWaitAndGoOn) {
     EXPECT_EQ(scheduler.next(0.1)->sweep->id, id_number(2));
   }
   scheduler.refresh();
-  EXPECT_TRUE(scheduler.has(id_number(1))) << "a worker has units of it";
+  EXPECT_TRUE(scheduler.has(id_number(1))) << "a worker has items of it";
   scheduler.give_turns_to({id_number(1)});
   EXPECT_EQ(scheduler.next(0.1)->sweep->id, id_number(1));
   scheduler.give_turns_to({});
-  EXPECT_FALSE(scheduler.has_units());
+  EXPECT_FALSE(scheduler.has_items());
   EXPECT_FALSE(scheduler.next(0.1).has_value());
 }
 
 /// Who waits for the store half of the time asks it less often.
-TEST(SharedSweeps, ASlowerStoreGivesMoreUnitsAtATime) {
+TEST(SharedSweeps, ASlowerStoreGivesMoreItemsAtATime) {
   SweepScheduler scheduler;
   EXPECT_DOUBLE_EQ(scheduler.chunk_seconds(), 0.1);
   scheduler.store_took(0.002);
@@ -372,7 +372,7 @@ TEST(SharedStore, AConnectionThatIsEndedWhileItWaitsIsLost) {
   EXPECT_FALSE(connection.good());
 }
 
-/// Claims and stores until nobody has any units left to give.
+/// Claims and stores until nobody has any items left to give.
 void work_on(SweepStore& sweeps, const std::string& id) {
   const Time now = Environment::system().now();
   while (true) {
@@ -380,14 +380,14 @@ void work_on(SweepStore& sweeps, const std::string& id) {
     if (!claim.ok() || !claim->has_value()) {
       return;
     }
-    const std::uint64_t point = (*claim)->units.first;
+    const std::uint64_t point = (*claim)->items.first;
     EXPECT_TRUE(sweeps.put(**claim, {{point, {"[1]", "", ""}, ""}}, now).ok());
   }
 }
 
-/// The last units may be claimed while those before are being stored, and be stored before those are: one of
+/// The last items may be claimed while those before are being stored, and be stored before those are: one of
 /// those who store has to see that nothing is left. Commits are made slow, so that they meet.
-TEST(SharedSweeps, WhoeverStoresTheLastUnitEndsTheSweep) {
+TEST(SharedSweeps, WhoeverStoresTheLastItemEndsTheSweep) {
   const TempDir folder;
   const std::string location = postgresql_location(folder.name());
   const auto store = open_store(location, 4, at_second(0));
@@ -413,7 +413,7 @@ TEST(SharedSweeps, WhoeverStoresTheLastUnitEndsTheSweep) {
   }
 }
 
-/// Between the look at what is left and its share of the lock the last units may be taken: it looks again.
+/// Between the look at what is left and its share of the lock the last items may be taken: it looks again.
 TEST(SharedSweeps, WhoWaitsForItsShareOfASweepLooksAgain) {
   const TempDir folder;
   const std::string location = postgresql_location(folder.name());

@@ -47,7 +47,7 @@ void fill(Store& store) {
     if (most == 0) {
       continue;
     }
-    const UnitClaim claim = **store.sweeps().claim(sweep.id, most, kLease, at_second(40));
+    const ItemClaim claim = **store.sweeps().claim(sweep.id, most, kLease, at_second(40));
     std::vector<PointRow> rows;
     for (std::uint64_t point = 0; point < most; ++point) {
       rows.push_back({point, {"[" + std::to_string(point) + ".25]", "", ""}, "key"});
@@ -62,13 +62,13 @@ void fill(Store& store) {
   }
 }
 
-/// A running sweep of curves with many gaps: every third unit has rows, and of one unit half the rows.
+/// A running sweep of curves with many gaps: every third item has rows, and of one item half the rows.
 NewSweep sweep_with_gaps(Store& store) {
   constexpr std::uint64_t kCurve = 3;
   NewSweep sweep{id_number(15), "t", followed_sweep(kCurve), 9000 * kCurve, at_second(15)};
-  sweep.unit_points = kCurve;
+  sweep.item_points = kCurve;
   EXPECT_TRUE(store.sweeps().submit(sweep).ok());
-  const UnitClaim claim = **store.sweeps().claim(sweep.id, 9000, kLease, at_second(40));
+  const ItemClaim claim = **store.sweeps().claim(sweep.id, 9000, kLease, at_second(40));
   std::vector<PointRow> rows;
   for (std::uint64_t point = 0; point < 9000 * kCurve; ++point) {
     if (point / kCurve % 3 == 0 && point != 9 * kCurve) {
@@ -79,16 +79,16 @@ NewSweep sweep_with_gaps(Store& store) {
   return sweep;
 }
 
-/// Claims of a sweep until none is left, as the units that they have.
-std::vector<bool> units_left(Store& store, const NewSweep& sweep) {
-  std::vector<bool> left(static_cast<std::size_t>(sweep.points / sweep.unit_points));
+/// Claims of a sweep until none is left, as the items that they have.
+std::vector<bool> items_left(Store& store, const NewSweep& sweep) {
+  std::vector<bool> left(static_cast<std::size_t>(sweep.points / sweep.item_points));
   for (;;) {
     const auto claim = store.sweeps().claim(sweep.id, 100'000, kLease, at_second(90));
     if (!claim.ok() || !claim->has_value()) {
       return left;
     }
-    for (std::uint64_t unit = 0; unit < (*claim)->units.count; ++unit) {
-      left.at((*claim)->units.first + unit) = true;
+    for (std::uint64_t item = 0; item < (*claim)->items.count; ++item) {
+      left.at((*claim)->items.first + item) = true;
     }
   }
 }
@@ -238,7 +238,7 @@ TEST(Copy, AnUnfinishedSweepGoesOnWithItsRows) {
     const Status copied = copy_store(*first, *second, counts, [](const CopyCounts&) {});
     ASSERT_TRUE(copied.ok()) << copied.message();
     EXPECT_EQ(told(*second), told(*first));
-    const std::vector<bool> left = units_left(*second, sweep);
+    const std::vector<bool> left = items_left(*second, sweep);
     EXPECT_EQ(std::count(left.begin(), left.end(), true), 6001) << "those with rows are not computed again";
     EXPECT_TRUE(left[9]) << "half a curve is computed wholly";
   }

@@ -33,7 +33,7 @@ class DeliveryStoreConformance : public StoreTest {
   }
   void put(int sweep, std::uint64_t point, const std::string& code = "") {
     const auto claimed = store_->sweeps().claim(id_number(sweep), 1, kLease, at_second(5));
-    ASSERT_TRUE(claimed.ok() && *claimed && (*claimed)->units.first == point);
+    ASSERT_TRUE(claimed.ok() && *claimed && (*claimed)->items.first == point);
     const PointRow row{point, {code.empty() ? "[1]" : "", code, code}};
     ASSERT_TRUE(store_->sweeps().put(**claimed, {row}, at_second(6)).ok());
   }

@@ -61,26 +61,26 @@ class LegalChanges : public StoreTest {
   }
 
   SweepStore& sweeps() { return store_->sweeps(); }
-  static std::vector<PointRow> rows(const UnitRun& units, bool failed) {
+  static std::vector<PointRow> rows(const ItemRun& items, bool failed) {
     std::vector<PointRow> all;
-    for (std::uint64_t point = units.first; point < units.first + units.count; ++point) {
+    for (std::uint64_t point = items.first; point < items.first + items.count; ++point) {
       all.push_back({point, failed ? api::PointOutcome{"", "no_convergence", "why"}
                                    : api::PointOutcome{"[1]", "", ""}});
     }
     return all;
   }
   /// Claims what is left of a sweep of two points.
-  std::optional<UnitClaim> claim_rest(const std::string& id) {
+  std::optional<ItemClaim> claim_rest(const std::string& id) {
     const auto claim = sweeps().claim(id, 9, kLease, at_second(2));
     EXPECT_TRUE(claim.ok() || claim.status().code() == StatusCode::conflict) << claim.status().message();
     return claim.ok() ? *claim : std::nullopt;
   }
   /// A sweep of two points in that state, and a claim of its first point; it holds while the sweep is
   /// running.
-  UnitClaim sweep_in(JobState state, int number) {
+  ItemClaim sweep_in(JobState state, int number) {
     NewSweep sweep{id_number(number), "a title", "{}", 2, at_second(1)};
     EXPECT_TRUE(sweeps().submit(sweep).ok());
-    UnitClaim held{12345, sweep.id, {0, 1}};
+    ItemClaim held{12345, sweep.id, {0, 1}};
     if (state == JobState::accepted) {
       return held;
     }
@@ -88,25 +88,25 @@ class LegalChanges : public StoreTest {
     if (state == JobState::dismissed) {
       EXPECT_TRUE(sweeps().dismiss(sweep.id, at_second(3))->changed);
     } else if (state != JobState::running) {
-      const UnitClaim rest = claim_rest(sweep.id).value();
-      EXPECT_TRUE(sweeps().put(rest, rows(rest.units, state == JobState::failed), at_second(3)).ok());
-      EXPECT_TRUE(sweeps().put(held, rows(held.units, false), at_second(3)).ok());
+      const ItemClaim rest = claim_rest(sweep.id).value();
+      EXPECT_TRUE(sweeps().put(rest, rows(rest.items, state == JobState::failed), at_second(3)).ok());
+      EXPECT_TRUE(sweeps().put(held, rows(held.items, false), at_second(3)).ok());
     }
     return held;
   }
-  bool happens(SweepEvent event, const UnitClaim& held) {
+  bool happens(SweepEvent event, const ItemClaim& held) {
     switch (event) {
       case SweepEvent::claim:
         return claim_rest(held.sweep).has_value();
       case SweepEvent::finish:
       case SweepEvent::fail: {
         const bool failed = event == SweepEvent::fail;
-        const auto first = sweeps().put(held, rows(held.units, failed), at_second(4));
+        const auto first = sweeps().put(held, rows(held.items, failed), at_second(4));
         if (!done(first.status())) {
           return false;
         }
-        const UnitClaim rest = claim_rest(held.sweep).value();
-        return done(sweeps().put(rest, rows(rest.units, false), at_second(4)).status());
+        const ItemClaim rest = claim_rest(held.sweep).value();
+        return done(sweeps().put(rest, rows(rest.items, false), at_second(4)).status());
       }
       case SweepEvent::dismiss:
         return sweeps().dismiss(held.sweep, at_second(4))->changed;
@@ -137,7 +137,7 @@ TEST_P(LegalChanges, OfASweepHappenAndOthersAreRefused) {
   for (const JobState state : kJobStates) {
     for (std::size_t event = 0; event < kSweepEventNames.size(); ++event) {
       SCOPED_TRACE(std::string(kSweepEventNames[event]) + " " + std::string(to_string(state)));
-      const UnitClaim held = sweep_in(state, ++number);
+      const ItemClaim held = sweep_in(state, ++number);
       ASSERT_EQ((*sweeps().get(held.sweep))->state, state);
       const auto next = next_state(state, static_cast<SweepEvent>(event));
       EXPECT_EQ(happens(static_cast<SweepEvent>(event), held), next.has_value());

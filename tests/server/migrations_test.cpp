@@ -262,7 +262,7 @@ TEST_F(Migrations, UnfinishedSweepsOfTheEighthVersionGoOnWhereTheyWere) {
       if (!claim.ok() || !*claim) {
         return runs;
       }
-      runs.push_back(std::to_string((*claim)->units.first) + "+" + std::to_string((*claim)->units.count));
+      runs.push_back(std::to_string((*claim)->items.first) + "+" + std::to_string((*claim)->items.count));
     }
   };
   EXPECT_THAT(left(1), testing::ElementsAre("2+1", "4+2"));

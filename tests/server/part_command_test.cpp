@@ -251,7 +251,7 @@ TEST_F(PartCommand, PartsOfARefinedSweepAreMerged) {
   EXPECT_EQ(merged.err, whole.err);
 }
 
-/// Curves are units: a part never cuts one.
+/// Curves are items: a part never cuts one.
 TEST_F(PartCommand, PartsAreWholeCurves) {
   const std::string curve = std::string(SNAPTHROUGH_SOURCE_DIR) + "/examples/sweeps/ring_followed.json";
   std::ifstream stream(curve);
@@ -260,11 +260,11 @@ TEST_F(PartCommand, PartsAreWholeCurves) {
   ASSERT_TRUE(sweep.sweep);
   std::uint64_t next = 0;
   for (std::uint64_t part = 1; part <= 5; ++part) {
-    const UnitRange units = units_of({part, 5}, *sweep.sweep);
-    EXPECT_EQ(units.first, next);
-    next = units.end;
+    const ItemRange items = items_of({part, 5}, *sweep.sweep);
+    EXPECT_EQ(items.first, next);
+    next = items.end;
   }
-  EXPECT_EQ(next, sweep.sweep->units());
+  EXPECT_EQ(next, sweep.sweep->items());
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ class Quota : public StoreTest {
       return;
     }
     std::vector<PointRow> rows;
-    const UnitRun& units = (*claim)->units;
-    for (std::uint64_t point = units.first; point < units.first + units.count; ++point) {
+    const ItemRun& items = (*claim)->items;
+    for (std::uint64_t point = items.first; point < items.first + items.count; ++point) {
       rows.push_back(point % 2 == 0 ? PointRow{point, {"[1.5]", "", ""}}
                                     : PointRow{point, {"", "no_convergence", "step \xc3\xa4"}});
     }

@@ -50,7 +50,7 @@ class CountingRunner final : public Runner {
     ++(low_ ? counts_.tasks_of_low : counts_.tasks);
     return {};
   }
-  WorkUsage run_units(const UnitTask& /*task*/) override { return {}; }
+  WorkUsage run_items(const ItemTask& /*task*/) override { return {}; }
   void give_way() override { low_ = true; }
 
  private:

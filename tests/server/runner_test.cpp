@@ -291,10 +291,10 @@ TEST_F(RunnerTest, ThePointsThatNeedTooMuchAreTheOnesThatFail) {
   const std::string document = hungry_sweep({11, 12, 20'000, 13, 20'000, 20'000, 14}).dump();
   const api::SweepOutcome read = api::read_sweep(document);
   ASSERT_TRUE(read.sweep);
-  const std::vector<std::uint64_t> units{0, 1, 2, 3, 4, 5, 6};
+  const std::vector<std::uint64_t> items{0, 1, 2, 3, 4, 5, 6};
   std::vector<std::string> codes;
-  runner.run_units(
-      {id, document, *read.sweep, units, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
+  runner.run_items(
+      {id, document, *read.sweep, items, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
          codes.push_back(outcomes.at(0).code);
        }});
   EXPECT_THAT(codes, testing::ElementsAre("", "", "memory_limit", "", "memory_limit", "memory_limit", ""));
@@ -307,10 +307,10 @@ TEST_F(RunnerTest, PointsOfAKilledRunnerAreComputedAgainAndNoneIsBlamed) {
   const std::string document = hungry_sweep({5001, 5002, 5003, 5004, 5005, 5006, 5007, 5008}).dump();
   const api::SweepOutcome read = api::read_sweep(document);
   ASSERT_TRUE(read.sweep);
-  const std::vector<std::uint64_t> units{0, 1, 2, 3, 4, 5, 6, 7};
+  const std::vector<std::uint64_t> items{0, 1, 2, 3, 4, 5, 6, 7};
   int told = 0;
-  runner.run_units(
-      {id, document, *read.sweep, units, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
+  runner.run_items(
+      {id, document, *read.sweep, items, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
          EXPECT_EQ(outcomes.at(0).code, "") << outcomes.at(0).detail;
          if (++told == 3) {
            ::kill(runner.process(), SIGKILL);
@@ -336,10 +336,10 @@ TEST_F(RunnerTest, ACurveThatNeedsTooMuchFailsWhollyAndAlone) {
   const std::string document = curves({4, 20'000, 5}, 3).dump();
   const api::SweepOutcome read = api::read_sweep(document);
   ASSERT_TRUE(read.sweep);
-  const std::vector<std::uint64_t> units{0, 1, 2};
+  const std::vector<std::uint64_t> items{0, 1, 2};
   std::vector<std::string> codes;
-  runner.run_units(
-      {id, document, *read.sweep, units, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
+  runner.run_items(
+      {id, document, *read.sweep, items, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
          EXPECT_EQ(outcomes.size(), 3U);
          for (const api::PointOutcome& outcome : outcomes) {
            codes.push_back(outcome.code);
@@ -356,10 +356,10 @@ TEST_F(RunnerTest, CurvesOfAKilledRunnerAreComputedAgainAndWholly) {
   const std::string document = curves({20, 21, 22, 23}, 100).dump();
   const api::SweepOutcome read = api::read_sweep(document);
   ASSERT_TRUE(read.sweep);
-  const std::vector<std::uint64_t> units{0, 1, 2, 3};
+  const std::vector<std::uint64_t> items{0, 1, 2, 3};
   int told = 0;
-  runner.run_units(
-      {id, document, *read.sweep, units, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
+  runner.run_items(
+      {id, document, *read.sweep, items, {}, {}, [&](const std::vector<api::PointOutcome>& outcomes) {
          ASSERT_EQ(outcomes.size(), 100U);
          for (const api::PointOutcome& outcome : outcomes) {
            EXPECT_EQ(outcome.code, "") << outcome.detail;

@@ -208,7 +208,7 @@ TEST_F(SweepService, RowsDoNotDependOnWorkersAndInterruptions) {
 }
 
 /// Half a ring in a medium that only presses, five stiffnesses: as traced one by one, and computed once.
-TEST_F(SweepService, AFollowedCurveIsOneUnitOfWork) {
+TEST_F(SweepService, AFollowedCurveIsOneItemOfWork) {
   start(solve);
   json document = json::parse(read_text(SNAPTHROUGH_SOURCE_DIR "/examples/sweeps/ring_followed.json"));
   document["analysis"]["discretization"]["elements"] = 16;
@@ -230,7 +230,7 @@ TEST_F(SweepService, AFollowedCurveIsOneUnitOfWork) {
 }
 
 /// A refined curve counts as one; its rows lead to requests, and an equal sweep is read from the store.
-TEST_F(SweepService, ARefinedCurveIsOneUnitOfWork) {
+TEST_F(SweepService, ARefinedCurveIsOneItemOfWork) {
   start(solve);
   json document = json::parse(read_text(SNAPTHROUGH_SOURCE_DIR "/examples/gallery/charts/film.json"));
   document["parameters"][0]["targets"] = {{{"pointer", "/model/foundations/0/stiffness"}, {"scale", 1e-4}}};

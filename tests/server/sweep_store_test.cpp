@@ -28,11 +28,11 @@ class SweepStoreConformance : public StoreTest {
     EXPECT_TRUE(sweeps().submit(sweep).ok());
     return sweep.id;
   }
-  /// Claims units, of which there must be some.
-  UnitClaim claim(const std::string& id, std::uint64_t most, const Lease& lease = kLease) {
+  /// Claims items, of which there must be some.
+  ItemClaim claim(const std::string& id, std::uint64_t most, const Lease& lease = kLease) {
     const auto claim = sweeps().claim(id, most, lease, at_second(50));
     EXPECT_TRUE(claim.ok() && claim->has_value()) << claim.status().message();
-    return claim.ok() ? claim->value_or(UnitClaim{}) : UnitClaim{};
+    return claim.ok() ? claim->value_or(ItemClaim{}) : ItemClaim{};
   }
   bool none_left(const std::string& id) {
     const auto claim = sweeps().claim(id, 1, kLease, at_second(50));
@@ -71,7 +71,7 @@ TEST_P(SweepStoreConformance, ASweepIsThereAsItWasHandedIn) {
   EXPECT_EQ(sweep.created, at_second(1));
   EXPECT_FALSE(sweep.started || sweep.finished);
   EXPECT_EQ(**sweeps().document(id), "{\"sweep\": 1}");
-  EXPECT_THAT(*sweeps().with_units(), ElementsAre(id));
+  EXPECT_THAT(*sweeps().with_items(), ElementsAre(id));
   EXPECT_EQ(*sweeps().unfinished(), 1);
   EXPECT_FALSE(sweeps().get(id_number(9))->has_value());
 }
@@ -87,10 +87,10 @@ TEST_P(SweepStoreConformance, RowsAreReadForAsLongAsTheyAreWanted) {
 
 TEST_P(SweepStoreConformance, RowsComeInAnyOrderAndTheLastEndsIt) {
   const std::string id = submit(1, 4);
-  const UnitClaim early = claim(id, 2);
-  const UnitClaim late = claim(id, 9);
-  EXPECT_EQ(early.units, (UnitRun{0, 2}));
-  EXPECT_EQ(late.units, (UnitRun{2, 2}));
+  const ItemClaim early = claim(id, 2);
+  const ItemClaim late = claim(id, 9);
+  EXPECT_EQ(early.items, (ItemRun{0, 2}));
+  EXPECT_EQ(late.items, (ItemRun{2, 2}));
   EXPECT_TRUE(none_left(id));
   EXPECT_EQ(record(id).state, JobState::running);
   EXPECT_EQ(record(id).started, at_second(50));
@@ -105,27 +105,27 @@ TEST_P(SweepStoreConformance, RowsComeInAnyOrderAndTheLastEndsIt) {
   EXPECT_EQ(sweeps().claim(id, 1, kLease, at_second(80)).status().code(), StatusCode::conflict);
 }
 
-TEST_P(SweepStoreConformance, AClaimStoresItsRowsOnceAndItsOtherUnitsAreGivenOutAgain) {
+TEST_P(SweepStoreConformance, AClaimStoresItsRowsOnceAndItsOtherItemsAreGivenOutAgain) {
   const std::string id = submit(1, 5);
-  const UnitClaim held = claim(id, 4);
+  const ItemClaim held = claim(id, 4);
   ASSERT_TRUE(sweeps().put(held, {good(1), bad(3)}, at_second(60)).ok());
   EXPECT_EQ(sweeps().put(held, {good(0)}, at_second(61)).status().code(), StatusCode::conflict);
   EXPECT_THAT(rows(id), ElementsAre("1 [1.5]", "3 no_convergence"));
   EXPECT_EQ(record(id).successful, 1);
   EXPECT_EQ(record(id).failed, 1);
-  std::vector<UnitRun> runs{claim(id, 4).units, claim(id, 4).units, claim(id, 4).units};
-  std::sort(runs.begin(), runs.end(), [](const UnitRun& a, const UnitRun& b) { return a.first < b.first; });
-  EXPECT_THAT(runs, ElementsAre(UnitRun{0, 1}, UnitRun{2, 1}, UnitRun{4, 1}));
+  std::vector<ItemRun> runs{claim(id, 4).items, claim(id, 4).items, claim(id, 4).items};
+  std::sort(runs.begin(), runs.end(), [](const ItemRun& a, const ItemRun& b) { return a.first < b.first; });
+  EXPECT_THAT(runs, ElementsAre(ItemRun{0, 1}, ItemRun{2, 1}, ItemRun{4, 1}));
   EXPECT_TRUE(none_left(id));
 }
 
 TEST_P(SweepStoreConformance, ACurveIsComputedAndTriedAgainWholly) {
   NewSweep sweep{id_number(1), "", "{}", 6, at_second(1)};
-  sweep.unit_points = 3;
+  sweep.item_points = 3;
   ASSERT_TRUE(sweeps().submit(sweep).ok());
-  EXPECT_EQ(claim(sweep.id, 1).units, (UnitRun{0, 1}));
-  const UnitClaim second = claim(sweep.id, 5);
-  EXPECT_EQ(second.units, (UnitRun{1, 1}));
+  EXPECT_EQ(claim(sweep.id, 1).items, (ItemRun{0, 1}));
+  const ItemClaim second = claim(sweep.id, 5);
+  EXPECT_EQ(second.items, (ItemRun{1, 1}));
   ASSERT_TRUE(sweeps().put(second, {good(3), bad(4), good(5)}, at_second(60)).ok());
   ASSERT_TRUE(sweeps().dismiss(sweep.id, at_second(61))->changed);
   ASSERT_TRUE(sweeps().retry(sweep.id, {}, at_second(200))->changed);
@@ -137,15 +137,15 @@ TEST_P(SweepStoreConformance, ACurveIsComputedAndTriedAgainWholly) {
   EXPECT_THAT(rows(sweep.id, {2, 3, {}}), ElementsAre("2 [2.5]", "3 [3.5]", "4 [4.5]"));
 }
 
-TEST_P(SweepStoreConformance, ALeaseOfUnitsHoldsAsLongAsItIsRenewed) {
+TEST_P(SweepStoreConformance, ALeaseOfItemsHoldsAsLongAsItIsRenewed) {
   const std::string id = submit(1, 3);
-  const UnitClaim renewed = claim(id, 1, {"worker", at_second(100)});
-  const UnitClaim late = claim(id, 1, {"worker", at_second(100)});
+  const ItemClaim renewed = claim(id, 1, {"worker", at_second(100)});
+  const ItemClaim late = claim(id, 1, {"worker", at_second(100)});
   EXPECT_THAT(*sweeps().renew({renewed}, at_second(200), at_second(90)), IsEmpty());
   EXPECT_THAT(*sweeps().renew({renewed, late}, at_second(200), at_second(110)), ElementsAre(late.number));
   EXPECT_EQ(sweeps().put(late, {good(1)}, at_second(111)).status().code(), StatusCode::conflict);
   EXPECT_EQ(*sweeps().rescue("worker", 1, at_second(112)), 1) << "its worker lives: no crash";
-  EXPECT_EQ(claim(id, 1).units.first + claim(id, 1).units.first, 3U) << "it is given out again";
+  EXPECT_EQ(claim(id, 1).items.first + claim(id, 1).items.first, 3U) << "it is given out again";
   EXPECT_TRUE(sweeps().put(renewed, {good(0)}, at_second(113)).ok());
 }
 
@@ -162,8 +162,8 @@ TEST_P(SweepStoreConformance, FailedPointsMakeItFailedAndAreTriedAgain) {
   EXPECT_EQ(record(id).state, JobState::accepted);
   EXPECT_FALSE(record(id).finished);
   EXPECT_EQ((*sweeps().open(id))->document, "{\"sweep\": 1}");
-  const UnitClaim again = claim(id, 3);
-  EXPECT_EQ(again.units, (UnitRun{1, 1}));
+  const ItemClaim again = claim(id, 3);
+  EXPECT_EQ(again.items, (ItemRun{1, 1}));
   ASSERT_TRUE(sweeps().put(again, {good(1)}, at_second(70)).ok());
   EXPECT_EQ(record(id).state, JobState::successful);
   EXPECT_EQ(record(id).successful, 3);
@@ -176,7 +176,7 @@ TEST_P(SweepStoreConformance, ManyScatteredFailuresAreTriedAgainInFewClaims) {
   const std::string id = submit(1, kPoints);
   for (std::uint64_t first = 0; first < kPoints; first += 2000) {
     std::vector<PointRow> all;
-    const UnitClaim part = claim(id, 2000);
+    const ItemClaim part = claim(id, 2000);
     for (std::uint64_t point = first; point < first + 2000; ++point) {
       all.push_back(fails(point) ? bad(point) : good(point));
     }
@@ -185,8 +185,8 @@ TEST_P(SweepStoreConformance, ManyScatteredFailuresAreTriedAgainInFewClaims) {
   ASSERT_EQ(record(id).failed, 400);
   ASSERT_TRUE(sweeps().retry(id, {}, at_second(70))->changed);
   for (const std::uint64_t first : {5U, 6005U}) {
-    const UnitClaim again = claim(id, kPoints);
-    EXPECT_EQ(again.units, (UnitRun{first, 1991})) << "the points between that have rows are in the claim";
+    const ItemClaim again = claim(id, kPoints);
+    EXPECT_EQ(again.items, (ItemRun{first, 1991})) << "the points between that have rows are in the claim";
     std::vector<PointRow> rows;
     for (std::uint64_t point = first; point < first + 1991; point += 10) {
       rows.push_back(good(point));
@@ -198,7 +198,7 @@ TEST_P(SweepStoreConformance, ManyScatteredFailuresAreTriedAgainInFewClaims) {
   EXPECT_EQ(record(id).successful, static_cast<std::int64_t>(kPoints));
 }
 
-TEST_P(SweepStoreConformance, OfJoinedUnitsOnlyThoseWithoutARowAreGivenOutAgain) {
+TEST_P(SweepStoreConformance, OfJoinedItemsOnlyThoseWithoutARowAreGivenOutAgain) {
   const std::string id = submit(1, 9);
   ASSERT_TRUE(
       sweeps()
@@ -206,17 +206,17 @@ TEST_P(SweepStoreConformance, OfJoinedUnitsOnlyThoseWithoutARowAreGivenOutAgain)
           .ok());
   ASSERT_TRUE(sweeps().dismiss(id, at_second(61))->changed);
   ASSERT_TRUE(sweeps().retry(id, {}, at_second(70))->changed);
-  UnitClaim again = claim(id, 9);
-  if (again.units.first == 7) {  // a driver may give out apart the units that had no row
+  ItemClaim again = claim(id, 9);
+  if (again.items.first == 7) {  // a driver may give out apart the items that had no row
     ASSERT_TRUE(sweeps().put(again, {}, at_second(75)).ok());
     again = claim(id, 9);
   }
-  ASSERT_EQ(again.units.first, 1U);
+  ASSERT_EQ(again.items.first, 1U);
   ASSERT_TRUE(sweeps().put(again, {good(4)}, at_second(80)).ok());
   std::vector<bool> left(9);
   for (auto next = sweeps().claim(id, 1, kLease, at_second(50)); next->has_value();
        next = sweeps().claim(id, 1, kLease, at_second(50))) {
-    left.at((*next)->units.first) = true;
+    left.at((*next)->items.first) = true;
   }
   EXPECT_THAT(left, ElementsAre(false, true, false, false, false, false, true, true, true));
 }
@@ -224,7 +224,7 @@ TEST_P(SweepStoreConformance, OfJoinedUnitsOnlyThoseWithoutARowAreGivenOutAgain)
 TEST_P(SweepStoreConformance, ADismissedSweepKeepsItsRowsAndTakesNoMore) {
   const std::string id = submit(1, 3);
   ASSERT_TRUE(sweeps().put(claim(id, 1), {good(0)}, at_second(60)).ok());
-  const UnitClaim held = claim(id, 1);
+  const ItemClaim held = claim(id, 1);
   EXPECT_TRUE(sweeps().dismiss(id, at_second(61))->changed);
   EXPECT_FALSE(sweeps().dismiss(id, at_second(62))->changed);
   EXPECT_EQ(sweeps().put(held, {good(1)}, at_second(63)).status().code(), StatusCode::conflict);
@@ -248,7 +248,7 @@ TEST_P(SweepStoreConformance, PointsAreFoundByContentUnlessTheyFailed) {
   EXPECT_EQ(record(second).reused, 1);
 }
 
-TEST_P(SweepStoreConformance, UnitsOfADeadProcessAreTriedAgainAlone) {
+TEST_P(SweepStoreConformance, ItemsOfADeadProcessAreTriedAgainAlone) {
   const std::string id = submit(1, 5);
   ASSERT_TRUE(sweeps().put(claim(id, 1), {good(0)}, at_second(60)).ok());
   claim(id, 2, {"dead", at_second(90)});
@@ -256,11 +256,11 @@ TEST_P(SweepStoreConformance, UnitsOfADeadProcessAreTriedAgainAlone) {
   EXPECT_EQ(recover_sweeps(2, at_second(100)), 2);
   EXPECT_EQ(recover_sweeps(2, at_second(100)), 0) << "each death is counted once";
   ASSERT_TRUE(sweeps().put(claim(id, 9), {good(3), good(4)}, at_second(102)).ok()) << "others come first";
-  EXPECT_EQ(claim(id, 9).units, (UnitRun{1, 1})) << "one at a time";
-  EXPECT_EQ(claim(id, 9).units, (UnitRun{2, 1}));
+  EXPECT_EQ(claim(id, 9).items, (ItemRun{1, 1})) << "one at a time";
+  EXPECT_EQ(claim(id, 9).items, (ItemRun{2, 1}));
 }
 
-TEST_P(SweepStoreConformance, AUnitThatKillsItsProcessTwiceIsARow) {
+TEST_P(SweepStoreConformance, AnItemThatKillsItsProcessTwiceIsARow) {
   const std::string id = submit(1, 2);
   for (int death = 1; death <= 2; ++death) {
     claim(id, 1, {"dead", at_second(90)});
@@ -274,8 +274,8 @@ TEST_P(SweepStoreConformance, AUnitThatKillsItsProcessTwiceIsARow) {
   EXPECT_EQ(record(id).state, JobState::failed);
 }
 
-/// One unit of thousands kills whoever has it: it is found with a few deaths, and nobody else's points fail.
-TEST_P(SweepStoreConformance, OneUnitOfManyThatKillsIsFound) {
+/// One item of thousands kills whoever has it: it is found with a few deaths, and nobody else's points fail.
+TEST_P(SweepStoreConformance, OneItemOfManyThatKillsIsFound) {
   constexpr std::uint64_t kPoints = 5000;
   constexpr std::uint64_t kKiller = 1234;
   const std::string id = submit(1, kPoints);
@@ -283,17 +283,17 @@ TEST_P(SweepStoreConformance, OneUnitOfManyThatKillsIsFound) {
   int claims = 0;
   while (!is_final(record(id).state)) {
     ASSERT_LT(++claims, 200);
-    const UnitClaim units = claim(id, 2048, {"dead", at_second(90)});
-    if (units.units.first <= kKiller && kKiller < units.units.first + units.units.count) {
+    const ItemClaim held = claim(id, 2048, {"dead", at_second(90)});
+    if (held.items.first <= kKiller && kKiller < held.items.first + held.items.count) {
       ++deaths;
       recover_sweeps(2, at_second(100));
       continue;
     }
     std::vector<PointRow> done;
-    for (std::uint64_t i = 0; i < units.units.count; ++i) {
-      done.push_back(good(units.units.first + i));
+    for (std::uint64_t i = 0; i < held.items.count; ++i) {
+      done.push_back(good(held.items.first + i));
     }
-    ASSERT_TRUE(sweeps().put(units, done, at_second(60)).ok());
+    ASSERT_TRUE(sweeps().put(held, done, at_second(60)).ok());
   }
   EXPECT_EQ(deaths, 3) << "with 2048, with 32, and alone";
   EXPECT_EQ(record(id).failed, 1);
@@ -305,10 +305,10 @@ TEST_P(SweepStoreConformance, TheFirstSweepOfEachOwnerComesFirst) {
   submit(1, 1, "ann");
   submit(2, 1, "ann");
   submit(3, 1, "bob");
-  EXPECT_THAT(*sweeps().with_units(), ElementsAre(id_number(1), id_number(3), id_number(2)));
+  EXPECT_THAT(*sweeps().with_items(), ElementsAre(id_number(1), id_number(3), id_number(2)));
   claim(id_number(1), 1);
-  EXPECT_THAT(*sweeps().with_units(), testing::UnorderedElementsAre(id_number(3), id_number(2)))
-      << "others have its units";
+  EXPECT_THAT(*sweeps().with_items(), testing::UnorderedElementsAre(id_number(3), id_number(2)))
+      << "others have its items";
   EXPECT_EQ(*sweeps().unfinished(), 3);
 }
 

@@ -100,7 +100,7 @@ class Pool:
 
 
 class Engine:
-    """Computes the spans that are wanted, in chunks of whole units, and gives rows as they come."""
+    """Computes the spans that are wanted, in chunks of whole items, and gives rows as they come."""
 
     def __init__(self, task: Task, rows_of: RowsOf, spans: Sequence[Span], unit: int, pool: Pool,
                  workers: Optional[int]) -> None:
@@ -152,8 +152,8 @@ class Engine:
         """The next points. Towards the end chunks get smaller, so that all workers end at about the same time."""
         first, count = self._spans.popleft()
         share = -(-self._left // (2 * self._workers))
-        units = max(1, min(self._size, share, count) // self._unit)
-        size = min(count, units * self._unit)
+        items = max(1, min(self._size, share, count) // self._unit)
+        size = min(count, items * self._unit)
         if size < count:
             self._spans.appendleft((first + size, count - size))
         self._left -= size
@@ -206,7 +206,7 @@ def _error_of(future: "Future[Any]") -> Optional[BaseException]:
 
 
 def missing_spans(total: int, unit: int, there: Sequence[int]) -> List[Span]:
-    """Runs of whole units of which some point has no row."""
+    """Runs of whole items, `unit` points each, of which some point has no row."""
     known = set(there)
     if not known:
         return [(0, total)]

@@ -92,7 +92,7 @@ class Forms(Case):
         self.assertEqual(len(run.table().to_pandas()), 300)
         self.assertEqual(run.table().to_numpy("K", "/summary/critical_load_factor").shape, (300, 2))
 
-    def test_a_curve_that_is_followed_is_one_unit(self):
+    def test_a_curve_that_is_followed_is_one_item(self):
         text = FOLLOWED.read_text(encoding="utf-8")
         self.assertEqual(local().sweep(text).table().to_csv(), command_line("sweep", "--csv", "-", text=text))
 
@@ -212,7 +212,7 @@ class Executors(Case):
                 local().sweep(sweep_of(1000), executor=pool).table()
         self.assertLess(len(calls), 10)
 
-    def test_units_are_not_cut(self):
+    def test_items_are_not_cut(self):
         spans = _engine.missing_spans(100, 10, [*range(15), *range(40, 60), 75])
         self.assertEqual(spans, [(10, 30), (60, 40)])
         self.assertEqual(_engine.missing_spans(25, 10, range(20, 25)), [(0, 20)])

@@ -40,9 +40,9 @@ Statement add_counts(std::int64_t sweep, const RowCounts& counts) {
       std::move(row)};
 }
 
-/// The rows of an earlier lease of the same units, locked, if there was one. Stored runs of a sweep do not
-/// overlap, so only the nearest run before can have the units.
-Rows rows_there(Connection& connection, const HeldUnits& lease) {
+/// The rows of an earlier lease of the same items, locked, if there was one. Stored runs of a sweep do not
+/// overlap, so only the nearest run before can have the items.
+Rows rows_there(Connection& connection, const HeldItems& lease) {
   return connection.run(
       "SELECT first, rows FROM sweep_rows WHERE sweep = $1 AND first + points > $2"
       " AND first = (SELECT max(first) FROM sweep_rows WHERE sweep = $1 AND first <= $2) FOR UPDATE",
@@ -51,7 +51,7 @@ Rows rows_there(Connection& connection, const HeldUnits& lease) {
 
 /// Adds rows of points without a row to the stored rows; the others are removed from `rows`.
 /// @param all the stored rows @param first their first point
-Statement merge_rows(std::vector<PointRow> all, std::int64_t first, const HeldUnits& lease,
+Statement merge_rows(std::vector<PointRow> all, std::int64_t first, const HeldItems& lease,
                      std::vector<PointRow>& rows) {
   const auto order = [](const PointRow& a, const PointRow& b) { return a.point < b.point; };
   std::erase_if(rows,
@@ -70,7 +70,7 @@ Statement merge_rows(std::vector<PointRow> all, std::int64_t first, const HeldUn
           std::move(row)};
 }
 
-Statement insert_rows(const HeldUnits& lease, const std::vector<PointRow>& rows) {
+Statement insert_rows(const HeldItems& lease, const std::vector<PointRow>& rows) {
   const std::vector<std::int64_t> keys = short_keys(rows);
   return {"INSERT INTO sweep_rows (sweep, first, points, failed, keys, rows) VALUES ($1, $2, $3, $4, $5, $6)",
           Parameters()
@@ -147,7 +147,7 @@ std::int64_t short_key(std::string_view key) {
   return static_cast<std::int64_t>(hash);
 }
 
-Statement insert_left(std::int64_t sweep, const UnitRun& run, std::int64_t crashes) {
+Statement insert_left(std::int64_t sweep, const ItemRun& run, std::int64_t crashes) {
   Parameters row;
   row.add(sweep)
       .add(static_cast<std::int64_t>(run.first))
@@ -156,19 +156,19 @@ Statement insert_left(std::int64_t sweep, const UnitRun& run, std::int64_t crash
   return {"INSERT INTO sweep_left (sweep, first, units, crashes) VALUES ($1, $2, $3, $4)", std::move(row)};
 }
 
-void settle(Connection& connection, const HeldUnits& lease, std::vector<PointRow> rows, bool alone,
+void settle(Connection& connection, const HeldItems& lease, std::vector<PointRow> rows, bool alone,
             const std::optional<std::int64_t>& now) {
   std::sort(rows.begin(), rows.end(), [](const PointRow& a, const PointRow& b) { return a.point < b.point; });
   const Rows there = rows_there(connection, lease);
   std::vector<PointRow> stored = there.empty() ? std::vector<PointRow>() : unpack_rows(there[0].text(1));
-  UnitRows units(lease.units, lease.unit_points);
+  ItemRows items(lease.items, lease.item_points);
   for (const std::vector<PointRow>* const some : {&stored, &rows}) {
     for (const PointRow& row : *some) {
-      units.add(row.point);
+      items.add(row.point);
     }
   }
   std::vector<Statement> statements;
-  for (const UnitRun& run : units.left()) {
+  for (const ItemRun& run : items.left()) {
     statements.push_back(insert_left(lease.sweep, run, lease.crashes));
   }
   if (!rows.empty()) {

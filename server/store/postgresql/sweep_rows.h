@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/store/items.h"
 #include "server/store/postgresql/connection.h"
-#include "server/store/units.h"
 
 namespace snapthrough::server::postgresql {
 
@@ -21,14 +21,14 @@ namespace snapthrough::server::postgresql {
 /// 64 bits of a key, by which rows are found.
 [[nodiscard]] std::int64_t short_key(std::string_view key);
 
-/// Inserts free units of a sweep.
-[[nodiscard]] Statement insert_left(std::int64_t sweep, const UnitRun& run, std::int64_t crashes);
+/// Inserts free items of a sweep.
+[[nodiscard]] Statement insert_left(std::int64_t sweep, const ItemRun& run, std::int64_t crashes);
 
-/// Stores rows of a lease that was ended, gives its other units out again, and ends the sweep if it is
+/// Stores rows of a lease that was ended, gives its other items out again, and ends the sweep if it is
 /// complete.
 /// @param alone result of hold_claims() of the schema: no other transaction ends a lease of the sweep
 /// @param now see Clock::at()
-void settle(Connection& connection, const HeldUnits& lease, std::vector<PointRow> rows, bool alone,
+void settle(Connection& connection, const HeldItems& lease, std::vector<PointRow> rows, bool alone,
             const std::optional<std::int64_t>& now);
 
 }  // namespace snapthrough::server::postgresql

@@ -39,7 +39,7 @@ SweepRecord read_record(const ResultRow& row) {
 }
 
 /// Columns sweep, first, units, crashes, unit_points of a lease.
-HeldUnits read_held(const Row& row) {
+HeldItems read_held(const Row& row) {
   return {row.integer(0), {row.number(1), row.number(2)}, row.integer(3), row.integer(4)};
 }
 
@@ -76,7 +76,7 @@ void insert_sweep(Connection& connection, const NewSweep& sweep, const Clock& cl
   row.add(clock.at(sweep.created)).add(sweep.analysis_type);
   row.add_bytes_or_null(notes.label).add_bytes_or_null(notes.metadata);
   row.add(notes.callback.empty() ? std::nullopt : std::optional<std::string_view>(notes.callback));
-  row.add(sweep.unit_points).add_bytes(sweep.document).add(text_or_null(sweep.request_sha256));
+  row.add(sweep.item_points).add_bytes(sweep.document).add(text_or_null(sweep.request_sha256));
   connection.run(kSql, row);
   if (sweep.idempotency) {
     Parameters key;
@@ -91,10 +91,10 @@ void insert_sweep(Connection& connection, const NewSweep& sweep, const Clock& cl
   }
 }
 
-/// @brief Removes the failed rows from a pack (the rows of one lease) and gives out the pack's units that
-/// lack a row; returns the bytes that were freed. No run of units reaches beyond the pack, so that each is
-/// stored in it. @param pack units of the pack, and number of its sweep
-std::int64_t drop_failed(Connection& connection, const HeldUnits& pack, std::string_view stored) {
+/// @brief Removes the failed rows from a pack (the rows of one lease) and gives out the pack's items that
+/// lack a row; returns the bytes that were freed. No run of items reaches beyond the pack, so that each is
+/// stored in it. @param pack items of the pack, and number of its sweep
+std::int64_t drop_failed(Connection& connection, const HeldItems& pack, std::string_view stored) {
   std::vector<PointRow> rows = unpack_rows(stored);
   std::int64_t freed = 0;
   for (const PointRow& row : rows) {
@@ -103,9 +103,9 @@ std::int64_t drop_failed(Connection& connection, const HeldUnits& pack, std::str
                  : 0;
   }
   std::erase_if(rows, [](const PointRow& row) { return row.outcome.failed(); });
-  UnitRows units(pack.units, pack.unit_points);
+  ItemRows items(pack.items, pack.item_points);
   for (const PointRow& row : rows) {
-    units.add(row.point);
+    items.add(row.point);
   }
   std::vector<Statement> statements{
       {"UPDATE sweep_rows SET rows = $3, failed = 0 WHERE sweep = $1 AND first = $2",
@@ -113,17 +113,17 @@ std::int64_t drop_failed(Connection& connection, const HeldUnits& pack, std::str
       {"DELETE FROM sweep_left WHERE sweep = $1 AND first >= $2 AND first < $2 + $3",
        Parameters()
            .add(pack.sweep)
-           .add(static_cast<std::int64_t>(pack.units.first))
-           .add(static_cast<std::int64_t>(pack.units.count))}};
-  for (const UnitRun& run : joined(units.left())) {
+           .add(static_cast<std::int64_t>(pack.items.first))
+           .add(static_cast<std::int64_t>(pack.items.count))}};
+  for (const ItemRun& run : joined(items.left())) {
     statements.push_back(insert_left(pack.sweep, run, 0));
   }
   connection.run_all(statements);
   return freed;
 }
 
-/// Removes all failed rows of a sweep, gives its units out again, and makes the sweep accepted.
-void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t unit_points) {
+/// Removes all failed rows of a sweep, gives its items out again, and makes the sweep accepted.
+void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t item_points) {
   static const std::string kAgain =
       "UPDATE sweeps SET " + becomes(SweepEvent::retry) + ", finished_us = NULL WHERE seq = $1";
   std::int64_t freed = 0;
@@ -138,8 +138,8 @@ void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t un
       break;
     }
     last = next[0].integer(0);
-    const auto unit = static_cast<std::uint64_t>(unit_points);
-    const HeldUnits pack{sweep, {next[0].number(0) / unit, next[0].number(1) / unit}, 0, unit_points};
+    const auto size = static_cast<std::uint64_t>(item_points);
+    const HeldItems pack{sweep, {next[0].number(0) / size, next[0].number(1) / size}, 0, item_points};
     freed += drop_failed(connection, pack, next[0].text(2));
   }
   const Parameters row = Parameters().add(sweep);
@@ -151,7 +151,7 @@ void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t un
       {kAgain, row}});
 }
 
-/// Removes units, leases and counts of removed sweeps, so that their bytes do not count for their owners.
+/// Removes items, leases and counts of removed sweeps, so that their bytes do not count for their owners.
 /// `gone` has the numbers of the sweeps.
 constexpr const char* kEndRemoved =
     ", counts AS (DELETE FROM sweep_counts WHERE sweep IN (SELECT seq FROM gone)),"
@@ -386,7 +386,7 @@ class PostgresqlSweepStore final : public SweepStore {
           Parameters().add(clock_.at(now)).add(microseconds(age))}});
   }
 
-  StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,
+  StatusOr<std::optional<ItemClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,
                                            Time now) override {
     Parameters wanted;
     wanted.add(id)
@@ -394,24 +394,24 @@ class PostgresqlSweepStore final : public SweepStore {
         .add(lease.worker)
         .add(microseconds(lease.until - now));
     wanted.add(clock_.at(now));
-    const auto use = [&](std::span<const Rows> all) -> StatusOr<std::optional<UnitClaim>> {
+    const auto use = [&](std::span<const Rows> all) -> StatusOr<std::optional<ItemClaim>> {
       const Rows& rows = all.front();
       if (rows.empty()) {
-        return std::optional<UnitClaim>();
+        return std::optional<ItemClaim>();
       }
-      const UnitRun units{rows[0].number(1), rows[0].number(2)};
-      return std::optional(UnitClaim{rows[0].integer(0), std::string(id), units});
+      const ItemRun items{rows[0].number(1), rows[0].number(2)};
+      return std::optional(ItemClaim{rows[0].integer(0), std::string(id), items});
     };
-    return database_.write_at_once<std::optional<UnitClaim>>(
+    return database_.write_at_once<std::optional<ItemClaim>>(
         {{"SELECT * FROM claim_units($1, $2, $3, $4, coalesce($5, snapthrough_now()))", wanted}},
         Durability::unsynced, use);
   }
 
-  StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>& claims, Time until,
+  StatusOr<std::vector<std::int64_t>> renew(const std::vector<ItemClaim>& claims, Time until,
                                             Time now) override {
     std::vector<std::int64_t> numbers;
     numbers.reserve(claims.size());
-    for (const UnitClaim& claim : claims) {
+    for (const ItemClaim& claim : claims) {
       numbers.push_back(claim.number);
     }
     static constexpr std::string_view kSql =
@@ -435,18 +435,18 @@ class PostgresqlSweepStore final : public SweepStore {
   }
 
   using SweepStore::put;
-  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, const WorkUsage& usage,
+  StatusOr<SweepRecord> put(const ItemClaim& claim, const std::vector<PointRow>& rows, const WorkUsage& usage,
                             Time now) override {
     static constexpr std::string_view kEnd =
         "DELETE FROM sweep_leases USING sweeps WHERE seq = sweep AND number = $1 AND NOT removed"
         " AND id = $3 AND first = $4 AND units = $5 AND until_us >= coalesce($2, snapthrough_now())"
         " RETURNING sweep, first, units, crashes, unit_points";
     static const std::string kRecord = "SELECT " + columns() + " FROM sweeps WHERE seq = $1";
-    // The units are compared too: after a crash of the database's machine the number may belong to another
+    // The items are compared too: after a crash of the database's machine the number may belong to another
     // claim.
     Parameters held;
     held.add(claim.number).add(clock_.at(now)).add(claim.sweep);
-    held.add(static_cast<std::int64_t>(claim.units.first)).add(static_cast<std::int64_t>(claim.units.count));
+    held.add(static_cast<std::int64_t>(claim.items.first)).add(static_cast<std::int64_t>(claim.items.count));
     const std::vector<Statement> end{
         {"SELECT hold_claims(seq) FROM sweeps WHERE id = $1", Parameters().add(claim.sweep)}, {kEnd, held}};
     const auto work = [&](Connection& connection) -> StatusOr<SweepRecord> {
@@ -455,7 +455,7 @@ class PostgresqlSweepStore final : public SweepStore {
       if (ended.empty()) {
         return Status(StatusCode::conflict, "sweep " + claim.sweep + " does not run any more");
       }
-      const HeldUnits lease = read_held(ended[0]);
+      const HeldItems lease = read_held(ended[0]);
       settle(connection, lease, rows, held_and_ended.front()[0].boolean(0), clock_.at(now));
       add_usage(connection, lease.sweep, rows.size(), usage, clock_.at(now));
       return read_record(connection.run(kRecord, Parameters().add(lease.sweep))[0]);
@@ -489,11 +489,11 @@ class PostgresqlSweepStore final : public SweepStore {
         if (ended.empty()) {
           continue;
         }
-        HeldUnits lease = read_held(ended[0]);
-        const bool given_up = lost_units(ended[0].text(5), worker, max_crashes, lease).given_up;
+        HeldItems lease = read_held(ended[0]);
+        const bool given_up = lost_items(ended[0].text(5), worker, max_crashes, lease).given_up;
         settle(connection, lease, given_up ? crashed_rows(lease) : std::vector<PointRow>(), alone,
                clock_.at(now));
-        again += given_up ? 0 : static_cast<std::int64_t>(lease.units.count);
+        again += given_up ? 0 : static_cast<std::int64_t>(lease.items.count);
       }
       return again;
     });
@@ -507,7 +507,7 @@ class PostgresqlSweepStore final : public SweepStore {
     });
   }
 
-  StatusOr<std::vector<std::string>> with_units() override {
+  StatusOr<std::vector<std::string>> with_items() override {
     return database_.read<std::vector<std::string>>([](Connection& connection) {
       return connection
           .run("SELECT id FROM sweeps WHERE " + may(SweepEvent::dismiss) +

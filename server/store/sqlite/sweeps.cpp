@@ -45,10 +45,10 @@ std::optional<Submitted> find_key_in(const Connection& connection, const Idempot
   return row.step() ? std::optional(known_key(row, key)) : std::nullopt;
 }
 
-/// Inserts free units of a sweep.
-void insert_left(Connection& connection, std::int64_t sweep, const UnitRun& units, std::int64_t crashes) {
+/// Inserts free items of a sweep.
+void insert_left(Connection& connection, std::int64_t sweep, const ItemRun& items, std::int64_t crashes) {
   connection.run("INSERT INTO sweep_left (sweep, first, units, crashes) VALUES (?, ?, ?, ?)", sweep,
-                 static_cast<std::int64_t>(units.first), static_cast<std::int64_t>(units.count), crashes);
+                 static_cast<std::int64_t>(items.first), static_cast<std::int64_t>(items.count), crashes);
 }
 
 void insert_sweep(Connection& connection, const NewSweep& sweep) {
@@ -57,9 +57,9 @@ void insert_sweep(Connection& connection, const NewSweep& sweep) {
       " callback, unit_points, request_sha256) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
       sweep.id, sweep.owner, sweep.title, sweep.reuse ? 1 : 0, sweep.points, to_row(sweep.created),
       sweep.analysis_type, text_or_null(sweep.annotations.label), text_or_null(sweep.annotations.metadata),
-      text_or_null(sweep.annotations.callback), sweep.unit_points, text_or_null(sweep.request_sha256));
+      text_or_null(sweep.annotations.callback), sweep.item_points, text_or_null(sweep.request_sha256));
   const std::int64_t row = connection.last_row();
-  insert_left(connection, row, {0, static_cast<std::uint64_t>(sweep.points / sweep.unit_points)}, 0);
+  insert_left(connection, row, {0, static_cast<std::uint64_t>(sweep.points / sweep.item_points)}, 0);
   connection.run("INSERT INTO sweep_documents (sweep, document) VALUES (?, ?)", row, sweep.document);
   if (sweep.idempotency) {
     connection.run(
@@ -130,31 +130,31 @@ void note_event(Connection& connection, std::string_view event, std::int64_t swe
       to_row(now), event, sweep);
 }
 
-/// Removes at most `most` free units of a sweep from `sweep_left` and returns them.
-std::optional<HeldUnits> take_left(Connection& connection, std::int64_t sweep, std::uint64_t most) {
+/// Removes at most `most` free items of a sweep from `sweep_left` and returns them.
+std::optional<HeldItems> take_left(Connection& connection, std::int64_t sweep, std::uint64_t most) {
   Statement row = connection.query(
       "SELECT first, units, crashes FROM sweep_left WHERE sweep = ? ORDER BY crashes, first LIMIT 1", sweep);
   if (!row.step()) {
     return std::nullopt;
   }
-  const UnitRun run{row.number(0), row.number(1)};
+  const ItemRun run{row.number(0), row.number(1)};
   const std::int64_t crashes = row.integer(2);
   const std::uint64_t taken = std::min(most_after_crashes(most, crashes), run.count);
   connection.run("DELETE FROM sweep_left WHERE sweep = ? AND first = ?", sweep, row.integer(0));
   if (taken < run.count) {
     insert_left(connection, sweep, {run.first + taken, run.count - taken}, crashes);
   }
-  return HeldUnits{sweep, {run.first, taken}, crashes};
+  return HeldItems{sweep, {run.first, taken}, crashes};
 }
 
 /// Columns of read_held(), from sweep_claims JOIN sweeps.
 constexpr const char* kHeldColumns = "sweep, first, units, crashes, unit_points";
-HeldUnits read_held(const Row& row) {
+HeldItems read_held(const Row& row) {
   return {row.integer(0), {row.number(1), row.number(2)}, row.integer(3), row.integer(4)};
 }
 
-/// Ends a claim and returns its units; empty when the claim has ended or its lease has run out.
-std::optional<HeldUnits> end_claim(Connection& connection, const UnitClaim& claim, Time now) {
+/// Ends a claim and returns its items; empty when the claim has ended or its lease has run out.
+std::optional<HeldItems> end_claim(Connection& connection, const ItemClaim& claim, Time now) {
   static const std::string kSql = "SELECT " + std::string(kHeldColumns) +
                                   " FROM sweep_claims JOIN sweeps ON seq = sweep"
                                   " WHERE number = ? AND lease_until_us >= ?";
@@ -162,7 +162,7 @@ std::optional<HeldUnits> end_claim(Connection& connection, const UnitClaim& clai
   if (!row.step()) {
     return std::nullopt;
   }
-  const HeldUnits held = read_held(row);
+  const HeldItems held = read_held(row);
   connection.run("DELETE FROM sweep_claims WHERE number = ?", claim.number);
   return held;
 }
@@ -170,12 +170,12 @@ std::optional<HeldUnits> end_claim(Connection& connection, const UnitClaim& clai
 /// A claim whose lease has run out.
 struct LateClaim {
   std::int64_t number = 0;
-  HeldUnits held;
+  HeldItems held;
   LostLease lost;
 };
 
-/// Ends claims whose lease ends before `ended_before`, by the decisions of lost_units(). Returns how many
-/// units are given out again.
+/// Ends claims whose lease ends before `ended_before`, by the decisions of lost_items(). Returns how many
+/// items are given out again.
 std::int64_t take_claims_back(Connection& connection, Time ended_before, std::string_view rescuer,
                               int max_crashes, Time now) {
   static const std::string kSql = "SELECT " + std::string(kHeldColumns) +
@@ -185,7 +185,7 @@ std::int64_t take_claims_back(Connection& connection, Time ended_before, std::st
   Statement row = connection.query(kSql, to_row(ended_before));
   while (row.step()) {
     LateClaim& late = claims.emplace_back(LateClaim{row.integer(5), read_held(row), {}});
-    late.lost = lost_units(row.text(6), rescuer, max_crashes, late.held);
+    late.lost = lost_items(row.text(6), rescuer, max_crashes, late.held);
   }
   std::int64_t again = 0;
   for (const auto& [number, held, lost] : claims) {
@@ -194,35 +194,35 @@ std::int64_t take_claims_back(Connection& connection, Time ended_before, std::st
       insert_points(connection, held.sweep, crashed_rows(held), now);
       continue;
     }
-    insert_left(connection, held.sweep, held.units, held.crashes);
-    again += static_cast<std::int64_t>(held.units.count);
+    insert_left(connection, held.sweep, held.items, held.crashes);
+    again += static_cast<std::int64_t>(held.items.count);
   }
   return again;
 }
 
-/// Units of a sweep with the points that have a row.
-UnitRows stored_rows(const Connection& connection, std::int64_t sweep, const UnitRun& units,
-                     std::int64_t unit_points) {
-  UnitRows stored(units, unit_points);
+/// Items of a sweep with the points that have a row.
+ItemRows stored_rows(const Connection& connection, std::int64_t sweep, const ItemRun& items,
+                     std::int64_t item_points) {
+  ItemRows stored(items, item_points);
   Statement row =
       connection.query("SELECT point FROM sweep_points WHERE sweep = ? AND point >= ? AND point < ?", sweep,
-                       static_cast<std::int64_t>(units.first) * unit_points,
-                       static_cast<std::int64_t>(units.first + units.count) * unit_points);
+                       static_cast<std::int64_t>(items.first) * item_points,
+                       static_cast<std::int64_t>(items.first + items.count) * item_points);
   while (row.step()) {
     stored.add(row.number(0));
   }
   return stored;
 }
 
-/// Removes the failed rows of a sweep that has ended, and gives out all units that lack a row.
+/// Removes the failed rows of a sweep that has ended, and gives out all items that lack a row.
 void forget_failures(Connection& connection, std::int64_t sweep) {
   connection.run("DELETE FROM sweep_points WHERE sweep = ? AND code IS NOT NULL", sweep);
   connection.run("DELETE FROM sweep_left WHERE sweep = ?", sweep);
   Statement row =
       connection.query("SELECT points / unit_points, unit_points FROM sweeps WHERE seq = ?", sweep);
   row.step();
-  const UnitRows stored = stored_rows(connection, sweep, {0, row.number(0)}, row.integer(1));
-  for (const UnitRun& run : joined(stored.left())) {
+  const ItemRows stored = stored_rows(connection, sweep, {0, row.number(0)}, row.integer(1));
+  for (const ItemRun& run : joined(stored.left())) {
     insert_left(connection, sweep, run, 0);
   }
 }
@@ -272,20 +272,20 @@ class SqliteSweepStore final : public SweepStore {
     });
   }
 
-  StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,
+  StatusOr<std::optional<ItemClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,
                                            Time now) override {
-    using Outcome = StatusOr<std::optional<UnitClaim>>;
+    using Outcome = StatusOr<std::optional<ItemClaim>>;
     static const std::string kBegin = "UPDATE sweeps SET " + becomes(SweepEvent::claim) +
                                       ", started_us = ifnull(started_us, ?) WHERE seq = ?";
-    return database_.write<std::optional<UnitClaim>>(
+    return database_.write<std::optional<ItemClaim>>(
         [&](Connection& connection) -> Outcome {
           const std::optional<StoredSweep> place = find(connection, id);
           if (!place || !next_state(place->state, SweepEvent::claim)) {
             return Status(StatusCode::conflict, "sweep " + std::string(id) + " is over");
           }
-          const std::optional<HeldUnits> taken = take_left(connection, place->row, most);
+          const std::optional<HeldItems> taken = take_left(connection, place->row, most);
           if (!taken) {
-            return std::optional<UnitClaim>();
+            return std::optional<ItemClaim>();
           }
           if (place->state != state_after(SweepEvent::claim)) {
             connection.run(kBegin, to_row(now), place->row);
@@ -293,20 +293,20 @@ class SqliteSweepStore final : public SweepStore {
           connection.run(
               "INSERT INTO sweep_claims (sweep, first, units, crashes, worker, lease_until_us)"
               " VALUES (?, ?, ?, ?, ?, ?)",
-              place->row, static_cast<std::int64_t>(taken->units.first),
-              static_cast<std::int64_t>(taken->units.count), taken->crashes, lease.worker,
+              place->row, static_cast<std::int64_t>(taken->items.first),
+              static_cast<std::int64_t>(taken->items.count), taken->crashes, lease.worker,
               to_row(lease.until));
-          return std::optional(UnitClaim{connection.last_row(), std::string(id), taken->units});
+          return std::optional(ItemClaim{connection.last_row(), std::string(id), taken->items});
         },
         Durability::unsynced);
   }
 
-  StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>& claims, Time until,
+  StatusOr<std::vector<std::int64_t>> renew(const std::vector<ItemClaim>& claims, Time until,
                                             Time now) override {
     return database_.write<std::vector<std::int64_t>>(
         [&](Connection& connection) -> StatusOr<std::vector<std::int64_t>> {
           std::vector<std::int64_t> lost;
-          for (const UnitClaim& claim : claims) {
+          for (const ItemClaim& claim : claims) {
             connection.run(
                 "UPDATE sweep_claims SET lease_until_us = ? WHERE number = ? AND lease_until_us >= ?",
                 to_row(until), claim.number, to_row(now));
@@ -320,19 +320,19 @@ class SqliteSweepStore final : public SweepStore {
   }
 
   using SweepStore::put;
-  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, const WorkUsage& usage,
+  StatusOr<SweepRecord> put(const ItemClaim& claim, const std::vector<PointRow>& rows, const WorkUsage& usage,
                             Time now) override {
     return database_.write<SweepRecord>(
         [&](Connection& connection) -> StatusOr<SweepRecord> {
           const std::optional<StoredSweep> place = find(connection, claim.sweep);
-          const std::optional<HeldUnits> held = end_claim(connection, claim, now);
+          const std::optional<HeldItems> held = end_claim(connection, claim, now);
           if (!place || !next_state(place->state, SweepEvent::finish) || !held) {
             return Status(StatusCode::conflict, "sweep " + claim.sweep + " does not run any more");
           }
           insert_points(connection, place->row, rows, now);
           add_usage(connection, place->row, rows.size(), usage, now);
-          for (const UnitRun& run :
-               stored_rows(connection, held->sweep, held->units, held->unit_points).left()) {
+          for (const ItemRun& run :
+               stored_rows(connection, held->sweep, held->items, held->item_points).left()) {
             insert_left(connection, held->sweep, run, held->crashes);
           }
           Statement row = connection.query("SELECT " + columns() + " FROM sweeps WHERE seq = ?", place->row);
@@ -461,7 +461,7 @@ class SqliteSweepStore final : public SweepStore {
     });
   }
 
-  StatusOr<std::vector<std::string>> with_units() override {
+  StatusOr<std::vector<std::string>> with_items() override {
     return database_.read<std::vector<std::string>>([](const Connection& connection) {
       static const std::string kSql =
           "SELECT id FROM sweeps WHERE " + may(SweepEvent::dismiss) +

@@ -20,15 +20,15 @@ class FailingSweepStore final : public SweepStore {
   StatusOr<std::vector<UsedKey>> keys(std::string_view) override { return status(); }
   Status add_key(std::string_view, const UsedKey&) override { return status(); }
   StatusOr<std::int64_t> unfinished() override { return status(); }
-  StatusOr<std::vector<std::string>> with_units() override { return status(); }
+  StatusOr<std::vector<std::string>> with_items() override { return status(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return status(); }
-  StatusOr<std::optional<UnitClaim>> claim(std::string_view, std::uint64_t, const Lease&, Time) override {
+  StatusOr<std::optional<ItemClaim>> claim(std::string_view, std::uint64_t, const Lease&, Time) override {
     return status();
   }
-  StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>&, Time, Time) override {
+  StatusOr<std::vector<std::int64_t>> renew(const std::vector<ItemClaim>&, Time, Time) override {
     return status();
   }
-  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, const WorkUsage&, Time) override {
+  StatusOr<SweepRecord> put(const ItemClaim&, const std::vector<PointRow>&, const WorkUsage&, Time) override {
     return status();
   }
   StatusOr<std::int64_t> recover(int, Time) override { return status(); }

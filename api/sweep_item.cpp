@@ -1,4 +1,4 @@
-#include "api/sweep_unit.h"
+#include "api/sweep_item.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "api/names.h"
-#include "api/refined_unit.h"
+#include "api/refined_item.h"
 #include "api/solved_point.h"
 #include "api/sweep_data.h"
 #include "solver/sweep/critical_curve.h"
@@ -62,7 +62,7 @@ nlohmann::json curve_document(nlohmann::json points, nlohmann::json events,
 struct CurveRows {
   Analysis analysis;
   std::vector<double> values;
-  std::vector<std::size_t> rows;  ///< index of each value among the points of the unit
+  std::vector<std::size_t> rows;  ///< index of each value among the points of the item
 };
 
 /// Returns the rows with valid requests; the outcomes of the others are set.
@@ -147,7 +147,7 @@ void follow_locus(const Sweep& sweep, const CurveRows& rows, std::function<Model
 }
 
 std::vector<PointOutcome> followed(const Sweep& sweep, std::uint64_t first, const std::stop_token& stop) {
-  std::vector<PointOutcome> outcomes(static_cast<std::size_t>(sweep.unit_size()));
+  std::vector<PointOutcome> outcomes(static_cast<std::size_t>(sweep.item_size()));
   const CurveRows rows = curve_rows(sweep, first, outcomes);
   const SweepFollow& which = sweep.data().followed;
   const auto model = [&sweep, first](double value) { return model_between(sweep, first, value); };
@@ -164,15 +164,15 @@ std::vector<PointOutcome> followed(const Sweep& sweep, std::uint64_t first, cons
   return outcomes;
 }
 
-/// Computes unit_outcomes(), but lets exceptions pass.
-std::vector<PointOutcome> outcomes_of(const Sweep& sweep, std::uint64_t unit, const SolvePoint& solve,
+/// Computes item_outcomes(), but lets exceptions pass.
+std::vector<PointOutcome> outcomes_of(const Sweep& sweep, std::uint64_t item, const SolvePoint& solve,
                                       const Hooks& hooks, std::shared_ptr<nlohmann::json>& document) {
-  const std::uint64_t first = unit * sweep.unit_size();
+  const std::uint64_t first = item * sweep.item_size();
   if (sweep.follows()) {
     return followed(sweep, first, hooks.stop);
   }
   if (sweep.refines()) {
-    return {refined_outcome(sweep, unit, solve, hooks, document)};
+    return {refined_outcome(sweep, item, solve, hooks, document)};
   }
   sweep.write_document(first, document);
   std::vector<PointOutcome> alone;
@@ -182,12 +182,12 @@ std::vector<PointOutcome> outcomes_of(const Sweep& sweep, std::uint64_t unit, co
 
 }  // namespace
 
-std::vector<PointOutcome> unit_outcomes(const Sweep& sweep, std::uint64_t unit, const SolvePoint& solve,
+std::vector<PointOutcome> item_outcomes(const Sweep& sweep, std::uint64_t item, const SolvePoint& solve,
                                         const Hooks& hooks, std::shared_ptr<nlohmann::json>& document) {
   try {
-    return outcomes_of(sweep, unit, solve, hooks, document);
+    return outcomes_of(sweep, item, solve, hooks, document);
   } catch (...) {
-    return std::vector<PointOutcome>(sweep.unit_size(), mishap_now());
+    return std::vector<PointOutcome>(sweep.item_size(), mishap_now());
   }
 }
 

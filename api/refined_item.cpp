@@ -1,4 +1,4 @@
-#include "api/refined_unit.h"
+#include "api/refined_item.h"
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -179,7 +179,7 @@ PointOutcome refined_outcome(const Sweep& sweep, std::uint64_t number, const Sol
 namespace {
 
 /// Parameters' values of a failed curve or surface: null for those along it.
-std::vector<Json> labels_of_unit(const SweepData& data, std::uint64_t first) {
+std::vector<Json> labels_of_item(const SweepData& data, std::uint64_t first) {
   std::vector<Json> labels = design_labels(data, first);
   for (std::size_t i = labels.size() - static_cast<std::size_t>(data.refine->parameters); i < labels.size();
        ++i) {
@@ -194,7 +194,7 @@ std::vector<SweepRow> Sweep::rows_of(std::uint64_t number, const PointOutcome& o
   const std::uint64_t first = first_place(number);
   std::vector<SweepRow> rows;
   if (!refines() || outcome.failed()) {
-    rows.push_back({first, refines() ? labels_of_unit(*data_, first) : design_labels(*data_, first), outcome,
+    rows.push_back({first, refines() ? labels_of_item(*data_, first) : design_labels(*data_, first), outcome,
                     std::vector<Json>(own_columns().size())});
     return rows;
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Units of a sweep: points that are computed, stored and reused together.
+/// Items of a sweep: points that are computed, stored and reused together.
 
 #include <chrono>
 #include <cstdint>
@@ -18,17 +18,17 @@
 namespace snapthrough::server {
 
 /// @brief One point, one followed curve (all points along the parameter that is followed), or one refined
-/// curve or surface, which has a single outcome. Thread-safe. REQUIRES: the sweep outlives the unit.
-class SweepUnit {
+/// curve or surface, which has a single outcome. Thread-safe. REQUIRES: the sweep outlives the item.
+class SweepItem {
  public:
-  /// @param number counted from 0 @pre number < sweep.units()
-  SweepUnit(const api::Sweep& sweep, std::uint64_t number) : sweep_(sweep), number_(number) {}
+  /// @param number counted from 0 @pre number < sweep.items()
+  SweepItem(const api::Sweep& sweep, std::uint64_t number) : sweep_(sweep), number_(number) {}
 
-  /// Number of the unit's first point; the other points follow it.
+  /// Number of the item's first point; the other points follow it.
   [[nodiscard]] std::uint64_t first() const { return number_ * count(); }
-  [[nodiscard]] std::uint64_t count() const { return sweep_.unit_size(); }
+  [[nodiscard]] std::uint64_t count() const { return sweep_.item_size(); }
 
-  /// @brief Keys of the unit's points (point_key()), in the order of the points. The key of a point of a
+  /// @brief Keys of the item's points (point_key()), in the order of the points. The key of a point of a
   /// curve includes the curve: following gives other last digits than tracing. The key of a refined curve or
   /// surface is that of its first point with its ranges and its tolerance.
   /// @param outputs Sweep::outputs_text()
@@ -36,7 +36,7 @@ class SweepUnit {
   [[nodiscard]] std::vector<std::string> keys(const std::string& outputs, std::string_view owner,
                                               std::shared_ptr<nlohmann::json>& document) const;
 
-  /// @brief Outcomes of the unit's points, in the order of the points (api::unit_outcomes()). Thread-safe if
+  /// @brief Outcomes of the item's points, in the order of the points (api::item_outcomes()). Thread-safe if
   /// `solve` is.
   /// @param document see keys()
   [[nodiscard]] std::vector<api::PointOutcome> compute(const SolveFunction& solve, const Hooks& hooks,
@@ -50,9 +50,9 @@ class SweepUnit {
   std::uint64_t number_;
 };
 
-/// Computes the units of a task one after the other on this thread and tells the outcomes of each. Ends early
+/// Computes the items of a task one after the other on this thread and tells the outcomes of each. Ends early
 /// when `enough` says so or a stop is requested. Returns processor time and factorizations; curves that are
 /// followed count none.
-WorkUsage compute_units(const UnitTask& task, const SolveFunction& solve);
+WorkUsage compute_items(const ItemTask& task, const SolveFunction& solve);
 
 }  // namespace snapthrough::server

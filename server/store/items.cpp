@@ -1,11 +1,11 @@
-#include "server/store/units.h"
+#include "server/store/items.h"
 
 #include <algorithm>
 
 namespace snapthrough::server {
 namespace {
 
-/// Largest number of units with rows between two runs that are joined.
+/// Largest number of items with rows between two runs that are joined.
 constexpr std::uint64_t kLargestGap = 1024;
 
 }  // namespace
@@ -17,45 +17,45 @@ void RowCounts::add(const PointRow& row) {
                                      row.outcome.detail.size());
 }
 
-void add_unit(std::vector<UnitRun>& runs, std::uint64_t unit) {
-  if (!runs.empty() && runs.back().first + runs.back().count == unit) {
+void add_item(std::vector<ItemRun>& runs, std::uint64_t item) {
+  if (!runs.empty() && runs.back().first + runs.back().count == item) {
     ++runs.back().count;
   } else {
-    runs.push_back({unit, 1});
+    runs.push_back({item, 1});
   }
 }
 
-UnitRows::UnitRows(const UnitRun& units, std::int64_t unit_points)
-    : units_(units),
-      unit_points_(static_cast<std::uint64_t>(unit_points)),
-      has_row_(units.count * unit_points_) {}
+ItemRows::ItemRows(const ItemRun& items, std::int64_t item_points)
+    : items_(items),
+      item_points_(static_cast<std::uint64_t>(item_points)),
+      has_row_(items.count * item_points_) {}
 
-void UnitRows::add(std::uint64_t point) {
-  const std::uint64_t first = units_.first * unit_points_;
+void ItemRows::add(std::uint64_t point) {
+  const std::uint64_t first = items_.first * item_points_;
   if (point >= first && point - first < has_row_.size()) {
     has_row_[point - first] = true;
   }
 }
 
-bool UnitRows::done(std::uint64_t unit) const {
-  const auto begin = has_row_.begin() + static_cast<std::ptrdiff_t>((unit - units_.first) * unit_points_);
-  const auto end = begin + static_cast<std::ptrdiff_t>(unit_points_);
+bool ItemRows::done(std::uint64_t item) const {
+  const auto begin = has_row_.begin() + static_cast<std::ptrdiff_t>((item - items_.first) * item_points_);
+  const auto end = begin + static_cast<std::ptrdiff_t>(item_points_);
   return std::find(begin, end, false) == end;
 }
 
-std::vector<UnitRun> UnitRows::left() const {
-  std::vector<UnitRun> runs;
-  for (std::uint64_t unit = units_.first; unit < units_.first + units_.count; ++unit) {
-    if (!done(unit)) {
-      add_unit(runs, unit);
+std::vector<ItemRun> ItemRows::left() const {
+  std::vector<ItemRun> runs;
+  for (std::uint64_t item = items_.first; item < items_.first + items_.count; ++item) {
+    if (!done(item)) {
+      add_item(runs, item);
     }
   }
   return runs;
 }
 
-std::vector<UnitRun> joined(const std::vector<UnitRun>& runs) {
-  std::vector<UnitRun> all;
-  for (const UnitRun& run : runs) {
+std::vector<ItemRun> joined(const std::vector<ItemRun>& runs) {
+  std::vector<ItemRun> all;
+  for (const ItemRun& run : runs) {
     if (!all.empty() && run.first - (all.back().first + all.back().count) <= kLargestGap) {
       all.back().count = run.first + run.count - all.back().first;
     } else {

@@ -20,7 +20,7 @@ namespace snapthrough::api {
 /// It fails as a whole with `refinement_limit` when `refine.most` points are not enough, and with
 /// `outputs_too_large`. Places are chosen by chart_curve() and chart_surface() (solver/sweep/chart.h).
 /// @param number of the curve or surface, less than sweep.size()
-/// @param document see unit_outcomes()
+/// @param document see item_outcomes()
 /// @pre sweep.refines()
 [[nodiscard]] PointOutcome refined_outcome(const Sweep& sweep, std::uint64_t number, const SolvePoint& solve,
                                            const Hooks& hooks, std::shared_ptr<nlohmann::json>& document);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Computes the outcomes of the points of a unit of a sweep.
+/// Computes the outcomes of the points of an item of a sweep.
 
 #include <cstdint>
 #include <memory>
@@ -14,15 +14,15 @@
 
 namespace snapthrough::api {
 
-/// @brief Returns the outcomes of a unit's points in their order.
+/// @brief Returns the outcomes of an item's points in their order.
 ///
 /// An invalid request has the outcome "wrong_request", a failed analysis its failure code. After a request to
 /// stop, at least one outcome is "cancelled" unless all points are complete. `solve` solves a point;
 /// follow_critical_point() or follow_critical_locus() (solver/sweep/) computes a curve.
-/// @param unit number of the unit, less than sweep.units()
+/// @param item number of the item, less than sweep.items()
 /// @param document document of any point of the sweep, which is overwritten; null creates a document
 /// An exception does not leave the function: it becomes the outcome of every point (mishap_now()).
-[[nodiscard]] std::vector<PointOutcome> unit_outcomes(const Sweep& sweep, std::uint64_t unit,
+[[nodiscard]] std::vector<PointOutcome> item_outcomes(const Sweep& sweep, std::uint64_t item,
                                                       const SolvePoint& solve, const Hooks& hooks,
                                                       std::shared_ptr<nlohmann::json>& document);
 
