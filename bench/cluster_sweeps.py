@@ -28,7 +28,7 @@ from cluster_rates import cpu_seconds, database_processes, hand_in, wait_until_e
 def through_hosts(fleet, document):
     """Wall time, and processor time of the hosts and of the database."""
     client = Client(fleet.fronts)
-    hosts = with_children([host.process.pid for host in fleet.hosts])  # who solves is a child
+    hosts = with_children([host.process.pid for host in fleet.hosts])  # their runners solve
     before = cpu_seconds(hosts), cpu_seconds(database_processes(fleet))
     start = time.time()
     path = hand_in(client, document, {"Cache-Control": "no-cache"})

@@ -15,7 +15,7 @@
 #include "server/queue/job_service.h"
 #include "server/resources/routes.h"
 #include "server/webhooks/webhooks.h"
-#include "server/worker/child_runner.h"
+#include "server/worker/isolated_runner.h"
 
 namespace snapthrough::server {
 

@@ -22,7 +22,7 @@
 #include "server/store/open_store.h"
 #include "server/webhooks/signature.h"
 #include "server/webhooks/webhooks.h"
-#include "server/worker/child_runner.h"
+#include "server/worker/isolated_runner.h"
 #include "solver/model/limits.h"
 
 namespace snapthrough::server {
@@ -79,7 +79,7 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"keep_records_s", number(config.jobs.keep_records.count())}};
 }
 
-ChildRunnerOptions runner_options(const ServiceConfig& config) {
+IsolatedRunnerOptions runner_options(const ServiceConfig& config) {
   return {config.runner_executable, config.jobs.job_memory, config.jobs.max_crashes};
 }
 
@@ -132,7 +132,7 @@ struct Service::Parts {
         jobs(*store, environment, log, config.jobs),
         upkeep(jobs.context(), disk_guard(config)),
         workers(config.workers, jobs.context(),
-                runners ? runners : child_runners(runner_options(config), runner_counters)),
+                runners ? runners : isolated_runners(runner_options(config), runner_counters)),
         routes(jobs, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config),
                 http::Page(config.web), config.hops_folder}),

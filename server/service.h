@@ -16,7 +16,7 @@ namespace snapthrough::server {
 /// @brief A service that runs from start() to stop(), which must be called from one thread.
 class Service {
  public:
-  /// @param runners factory of runners; empty: child processes (worker/child_runner.h)
+  /// @param runners factory of runners; empty: isolated_runners() (worker/isolated_runner.h)
   /// @pre config.check() is empty; `log` outlives the service
   Service(ServiceConfig config, Environment environment, RunnerFactory runners, Log& log);
   /// Calls stop() if necessary.

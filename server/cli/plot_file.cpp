@@ -92,8 +92,8 @@ std::string convert(const std::string& svg, int output, double scale) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     argv[i] = words[i].data();
   }
-  pid_t child = 0;
-  const int failure = ::posix_spawnp(&child, argv[0], &streams, nullptr, argv.data(), environ);
+  pid_t process = 0;
+  const int failure = ::posix_spawnp(&process, argv[0], &streams, nullptr, argv.data(), environ);
   ::posix_spawn_file_actions_destroy(&streams);
   if (failure == ENOENT) {
     return "PNG needs the program rsvg-convert, which is not there: install the package librsvg2-bin, or "
@@ -103,7 +103,7 @@ std::string convert(const std::string& svg, int output, double scale) {
     return std::string("cannot run rsvg-convert: ") + std::strerror(failure);
   }
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ""
                                                        : "rsvg-convert failed: " + first_line(errors.get());

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What computes for a worker: a child process (child_runner.h) or this process (local_runner.h).
+/// What computes for a worker: a process of its own (isolated_runner.h) or this process (local_runner.h).
 
 #include <cstdint>
 #include <functional>

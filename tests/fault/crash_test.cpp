@@ -89,7 +89,7 @@ class Crash : public KilledServiceTest {
   }
   /// Kills a runner that lives, whichever.
   bool kill_runner(const Process& service, std::mt19937& random) const {
-    const std::vector<pid_t> runners = service.children();
+    const std::vector<pid_t> runners = service.started();
     return !runners.empty() && ::kill(runners[random() % runners.size()], SIGKILL) == 0;
   }
 

@@ -144,7 +144,7 @@ class HostileAnalysis : public testing::Test {
     const std::string message = json::parse(get(port_, job).body)["message"];
     std::smatch found;
     const pid_t process = std::regex_search(message, found, kStep) ? std::stoi(found[1]) : 0;
-    const std::vector<pid_t> runners = service_->children();
+    const std::vector<pid_t> runners = service_->started();
     return std::find(runners.begin(), runners.end(), process) == runners.end() ? 0 : process;
   }
   [[nodiscard]] std::string status_of(const std::string& job) const {
@@ -202,9 +202,9 @@ class HostileAnalysis : public testing::Test {
   /// Descriptors of the service without those of its runners: two sockets and the process of each.
   [[nodiscard]] int own_descriptors() const {
     constexpr int kOfARunner = 3;
-    return descriptors() - kOfARunner * static_cast<int>(service_->children().size());
+    return descriptors() - kOfARunner * static_cast<int>(service_->started().size());
   }
-  /// Waits until nothing is left over: as many descriptors as before, and at most two living children a
+  /// Waits until nothing is left over: as many descriptors as before, and at most two living runners a
   /// worker, of which one gives way (decision 39).
   void check_nothing_leaked(int before) const {
     const auto dead = [](pid_t process) {
@@ -212,7 +212,7 @@ class HostileAnalysis : public testing::Test {
     };
     std::vector<pid_t> runners;
     EXPECT_TRUE(eventually([&] {
-      runners = service_->children();
+      runners = service_->started();
       return own_descriptors() <= before && runners.size() >= kWorkers && runners.size() <= 2 * kWorkers &&
              std::none_of(runners.begin(), runners.end(), dead);
     }));

@@ -11,7 +11,7 @@
 
 #include "api/api.h"
 #include "server/jobs/memory.h"
-#include "server/worker/child_runner.h"
+#include "server/worker/isolated_runner.h"
 #include "tests/server/support/running_service.h"
 #include "tests/server/support/sanitizer.h"
 
@@ -43,7 +43,7 @@ json many_states(int points = 20'000) {
 /// What a process of its own makes of a request in so much memory.
 JobRun solved_within(std::int64_t memory, const std::string& request) {
   RunnerCounters counters;
-  ChildRunner runner({SNAPTHROUGH_EXECUTABLE, memory}, counters);
+  IsolatedRunner runner({SNAPTHROUGH_EXECUTABLE, memory}, counters);
   return runner.run_job(request, {});
 }
 
@@ -59,7 +59,7 @@ TEST(MemoryLimit, WhereverItStrikesOneAnalysisFailsAndTheNextIsRight) {
   int refused = 0;
   constexpr int kLimits = 16;
   for (int i = 1; i <= kLimits; ++i) {
-    ChildRunner runner({SNAPTHROUGH_EXECUTABLE, 3 * whole.usage.peak_bytes * i / kLimits}, counters);
+    IsolatedRunner runner({SNAPTHROUGH_EXECUTABLE, 3 * whole.usage.peak_bytes * i / kLimits}, counters);
     const JobRun run = runner.run_job(request, {});
     if (run.failure) {
       ++refused;

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "server/worker/child_runner.h"
+#include "server/worker/isolated_runner.h"
 #include "server/worker/record.h"
 #include "tests/server/support/running_service.h"
 #include "tests/server/support/sanitizer.h"
@@ -32,7 +32,7 @@ constexpr std::int64_t kEnough = 512 * kMegabyte;
 
 class RunnerTest : public testing::Test {
  protected:
-  [[nodiscard]] ChildRunnerOptions options(std::int64_t memory = kEnough, int max_crashes = 2) const {
+  [[nodiscard]] IsolatedRunnerOptions options(std::int64_t memory = kEnough, int max_crashes = 2) const {
     return {SNAPTHROUGH_EXECUTABLE, memory, max_crashes};
   }
   RunnerCounters counters_;
@@ -41,9 +41,9 @@ class RunnerTest : public testing::Test {
 /// The system starts no process for the moment: the job waits, and it is nobody's crash.
 TEST_F(RunnerTest, AJobWaitsForAProcessThatCannotBeStartedYet) {
   const TempDir folder;
-  ChildRunnerOptions missing = options();
+  IsolatedRunnerOptions missing = options();
   missing.executable = folder.file("snapthrough");
-  ChildRunner runner(missing, counters_);
+  IsolatedRunner runner(missing, counters_);
   JobRun run;
   std::jthread job([&] { run = runner.run_job(column_request(), {}); });
   while (counters_.without_process == 0) {
@@ -58,7 +58,7 @@ TEST_F(RunnerTest, AJobWaitsForAProcessThatCannotBeStartedYet) {
 
 TEST_F(RunnerTest, OneThatGivesWayHasALowPriorityAndKeepsItsProcess) {
   const int mine = ::getpriority(PRIO_PROCESS, 0);
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   ASSERT_TRUE(runner.run_job(column_request(), {}).result.has_value());
   EXPECT_EQ(::getpriority(PRIO_PROCESS, static_cast<id_t>(runner.process())), mine);
   runner.give_way();
@@ -74,9 +74,9 @@ TEST_F(RunnerTest, OneThatGivesWayHasALowPriorityAndKeepsItsProcess) {
 
 TEST_F(RunnerTest, AJobThatWaitsForAProcessCanBeStopped) {
   const TempDir folder;
-  ChildRunnerOptions missing = options();
+  IsolatedRunnerOptions missing = options();
   missing.executable = folder.file("snapthrough");
-  ChildRunner runner(missing, counters_);
+  IsolatedRunner runner(missing, counters_);
   std::stop_source stop;
   JobRun run;
   std::jthread job([&] { run = runner.run_job(column_request(), {.stop = stop.get_token()}); });
@@ -90,7 +90,7 @@ TEST_F(RunnerTest, AJobThatWaitsForAProcessCanBeStopped) {
 }
 
 TEST_F(RunnerTest, AJobIsSolvedAsInThisProcess) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   const JobRun there = runner.run_job(column_request(), {});
   const JobRun here = local_runners(solve_checked)()->run_job(column_request(), {});
   ASSERT_TRUE(there.result && here.result);
@@ -111,7 +111,7 @@ TEST_F(RunnerTest, AJobIsSolvedAsInThisProcess) {
 }
 
 TEST_F(RunnerTest, ARequestThatIsNoneIsAFailure) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   const JobRun run = runner.run_job("{}", {});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "invalid_request");
@@ -119,7 +119,7 @@ TEST_F(RunnerTest, ARequestThatIsNoneIsAFailure) {
 }
 
 TEST_F(RunnerTest, OneThatIsKilledIsReplacedAndTheJobTriedAgain) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   for (int i = 0; i < 20; ++i) {
     ::kill(runner.process(), SIGKILL);
     EXPECT_TRUE(runner.run_job(column_request(), {}).result) << i;
@@ -129,7 +129,7 @@ TEST_F(RunnerTest, OneThatIsKilledIsReplacedAndTheJobTriedAgain) {
 }
 
 TEST_F(RunnerTest, AJobThatKillsItsRunnersIsGivenUp) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   const JobRun run =
       runner.run_job(endless_request(), {{}, [&](const Progress&) { ::kill(runner.process(), SIGABRT); }});
   ASSERT_TRUE(run.failure);
@@ -140,9 +140,9 @@ TEST_F(RunnerTest, AJobThatKillsItsRunnersIsGivenUp) {
 
 /// One that did not hear of the stop would be killed after its grace.
 TEST_F(RunnerTest, OneThatStopsIsKept) {
-  ChildRunnerOptions patient = options();
+  IsolatedRunnerOptions patient = options();
   patient.grace = kPatience;
-  ChildRunner runner(patient, counters_);
+  IsolatedRunner runner(patient, counters_);
   std::stop_source stop;
   const JobRun run =
       runner.run_job(endless_request(), {stop.get_token(), [&](const Progress&) { stop.request_stop(); }});
@@ -154,9 +154,9 @@ TEST_F(RunnerTest, OneThatStopsIsKept) {
 
 /// What is heard of a stop by nobody: the process itself is stopped.
 TEST_F(RunnerTest, OneThatDoesNotStopIsKilledAfterItsGrace) {
-  ChildRunnerOptions brief = options();
+  IsolatedRunnerOptions brief = options();
   brief.grace = milliseconds(300);
-  ChildRunner runner(brief, counters_);
+  IsolatedRunner runner(brief, counters_);
   std::stop_source stop;
   const JobRun run = runner.run_job(endless_request(), {stop.get_token(), [&](const Progress&) {
                                                           ::kill(runner.process(), SIGSTOP);
@@ -170,7 +170,7 @@ TEST_F(RunnerTest, OneThatDoesNotStopIsKilledAfterItsGrace) {
 
 /// Its priority is lower until it ends; then another process takes its place.
 TEST_F(RunnerTest, OneThatTakesLongGivesWayAndIsReplaced) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   const auto first = static_cast<id_t>(runner.process());
   constexpr int kLower = 10;
   std::stop_source stop;
@@ -188,7 +188,7 @@ TEST_F(RunnerTest, OneThatTakesLongGivesWayAndIsReplaced) {
 }
 
 TEST_F(RunnerTest, NewsOfALongAnalysisArriveWhileItRuns) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   std::stop_source stop;
   int news = 0;
   const JobRun run = runner.run_job(endless_request(), {stop.get_token(), [&](const Progress& progress) {
@@ -214,9 +214,9 @@ std::string program_in(const TempDir& folder, const std::string& commands) {
 TEST_F(RunnerTest, OneThatTalksNonsenseIsOneThatCrashed) {
   const TempDir folder;
   for (const char* bytes : {"head -c 64 /dev/zero | tr '\\0' '\\377'", "head -c 64 /dev/zero"}) {
-    ChildRunnerOptions astray = options();
+    IsolatedRunnerOptions astray = options();
     astray.executable = program_in(folder, "{ " + std::string(bytes) + "; } >&0\nexec sleep 3600");
-    ChildRunner runner(astray, counters_);
+    IsolatedRunner runner(astray, counters_);
     const JobRun run = runner.run_job(column_request(), {});
     ASSERT_TRUE(run.failure);
     EXPECT_EQ(run.failure->code, "crashed") << bytes;
@@ -226,11 +226,11 @@ TEST_F(RunnerTest, OneThatTalksNonsenseIsOneThatCrashed) {
 /// It held its worker for good: the service waited for the rest of the frame, and looked at nothing else.
 TEST_F(RunnerTest, OneThatSendsHalfAFrameIsKilledAfterItsGrace) {
   const TempDir folder;
-  ChildRunnerOptions half = options();
+  IsolatedRunnerOptions half = options();
   half.executable =
       program_in(folder, R"(printf '\350\003\0\0\0\0\0\0\010\0\0\0\0\0\0\0part' >&0; exec sleep 3600)");
   half.grace = milliseconds(300);
-  ChildRunner runner(half, counters_);
+  IsolatedRunner runner(half, counters_);
   std::stop_source stop;
   std::jthread stopper([&] {
     std::this_thread::sleep_for(milliseconds(300));
@@ -245,9 +245,9 @@ TEST_F(RunnerTest, OneThatSendsHalfAFrameIsKilledAfterItsGrace) {
 /// It held its worker for good: a request that no socket's buffer takes was never read.
 TEST_F(RunnerTest, OneThatDoesNotTakeItsTaskIsOneThatCrashed) {
   const TempDir folder;
-  ChildRunnerOptions deaf = options(kEnough, 1);
+  IsolatedRunnerOptions deaf = options(kEnough, 1);
   deaf.executable = program_in(folder, "exec sleep 3600");
-  ChildRunner runner(deaf, counters_);
+  IsolatedRunner runner(deaf, counters_);
   const JobRun run = runner.run_job(column_request() + std::string(4 * kMegabyte, ' '), {});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "crashed");
@@ -286,7 +286,7 @@ json hungry_sweep(const std::vector<int>& points) {
 
 TEST_F(RunnerTest, ThePointsThatNeedTooMuchAreTheOnesThatFail) {
   SKIP_WITHOUT_MEMORY_BOUND();
-  ChildRunner runner(options(16 * kMegabyte), counters_);
+  IsolatedRunner runner(options(16 * kMegabyte), counters_);
   const std::string id = "s";
   const std::string document = hungry_sweep({11, 12, 20'000, 13, 20'000, 20'000, 14}).dump();
   const api::SweepOutcome read = api::read_sweep(document);
@@ -302,7 +302,7 @@ TEST_F(RunnerTest, ThePointsThatNeedTooMuchAreTheOnesThatFail) {
 }
 
 TEST_F(RunnerTest, PointsOfAKilledRunnerAreComputedAgainAndNoneIsBlamed) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   const std::string id = "s";
   const std::string document = hungry_sweep({5001, 5002, 5003, 5004, 5005, 5006, 5007, 5008}).dump();
   const api::SweepOutcome read = api::read_sweep(document);
@@ -331,7 +331,7 @@ json curves(const std::vector<int>& elements, int points) {
 
 TEST_F(RunnerTest, ACurveThatNeedsTooMuchFailsWhollyAndAlone) {
   SKIP_WITHOUT_MEMORY_BOUND();
-  ChildRunner runner(options(16 * kMegabyte), counters_);
+  IsolatedRunner runner(options(16 * kMegabyte), counters_);
   const std::string id = "s";
   const std::string document = curves({4, 20'000, 5}, 3).dump();
   const api::SweepOutcome read = api::read_sweep(document);
@@ -351,7 +351,7 @@ TEST_F(RunnerTest, ACurveThatNeedsTooMuchFailsWhollyAndAlone) {
 }
 
 TEST_F(RunnerTest, CurvesOfAKilledRunnerAreComputedAgainAndWholly) {
-  ChildRunner runner(options(), counters_);
+  IsolatedRunner runner(options(), counters_);
   const std::string id = "s";
   const std::string document = curves({20, 21, 22, 23}, 100).dump();
   const api::SweepOutcome read = api::read_sweep(document);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The real program as a child process.
+/// The real program as a process of its own.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -68,16 +68,15 @@ class Process {
   Process& operator=(Process&&) = delete;
 
   [[nodiscard]] pid_t id() const { return id_; }
-  /// Processes that it started and that are its children, those included that have ended and nobody asked
-  /// after.
-  [[nodiscard]] std::vector<pid_t> children() const {
+  /// Processes that it started and has not waited for, such as its runners; ended ones included.
+  [[nodiscard]] std::vector<pid_t> started() const {
     std::vector<pid_t> all;
     std::error_code gone;
     for (const auto& thread :
          std::filesystem::directory_iterator("/proc/" + std::to_string(id_) + "/task", gone)) {
       std::ifstream file(thread.path() / "children");
-      for (pid_t child = 0; file >> child;) {
-        all.push_back(child);
+      for (pid_t id = 0; file >> id;) {
+        all.push_back(id);
       }
     }
     return all;

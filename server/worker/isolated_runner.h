@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A runner in a child process: its crash fails one analysis and does not end the service.
+/// A runner in a process of its own: its crash fails one analysis and does not end the service.
 
 #include <sys/types.h>
 
@@ -33,20 +33,20 @@ struct RunnerCounters {
 /// program: the link is that of the loader then.
 [[nodiscard]] std::string own_executable();
 
-struct ChildRunnerOptions {
+struct IsolatedRunnerOptions {
   std::string executable = own_executable();  ///< path of the program snapthrough
   std::int64_t memory = 0;                    ///< limit of one analysis in bytes
   int max_crashes = 1;                        ///< crashes after which an analysis fails, >= 1
   std::chrono::milliseconds grace{2000};      ///< from the stop request to the kill
 };
 
-/// @brief Lets a child process compute, and replaces it when it ends. The process ends with the thread that
-/// created the runner.
-class ChildRunner final : public Runner {
+/// @brief Lets a process of its own compute, and replaces it when it ends. The process ends with the thread
+/// that created the runner.
+class IsolatedRunner final : public Runner {
  public:
   /// @param counters must outlive the runner
-  ChildRunner(ChildRunnerOptions options, RunnerCounters& counters);
-  ~ChildRunner() override;
+  IsolatedRunner(IsolatedRunnerOptions options, RunnerCounters& counters);
+  ~IsolatedRunner() override;
 
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
   WorkUsage run_items(const ItemTask& task) override;
@@ -79,7 +79,7 @@ class ChildRunner final : public Runner {
   [[nodiscard]] End attempt_items(const ItemTask& task, std::size_t& told, bool at_once, WorkUsage& usage);
   [[nodiscard]] JobFailure failure_of(End end, int crashes) const;
 
-  const ChildRunnerOptions options_;
+  const IsolatedRunnerOptions options_;
   RunnerCounters& counters_;
   bool gives_way_ = false;  ///< its processes have a low priority from their start
   pid_t process_ = 0;
@@ -94,6 +94,6 @@ class ChildRunner final : public Runner {
 };
 
 /// Returns a factory of runners with processes of their own.
-[[nodiscard]] RunnerFactory child_runners(ChildRunnerOptions options, RunnerCounters& counters);
+[[nodiscard]] RunnerFactory isolated_runners(IsolatedRunnerOptions options, RunnerCounters& counters);
 
 }  // namespace snapthrough::server

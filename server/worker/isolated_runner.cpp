@@ -1,4 +1,4 @@
-#include "server/worker/child_runner.h"
+#include "server/worker/isolated_runner.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -50,7 +50,7 @@ constexpr std::size_t kMostSweeps = 16;
 
 /// Calls the hooks for a news frame of a running analysis. @throws std::runtime_error for a frame that is too
 /// large or malformed
-void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
+void IsolatedRunner::pass_on(const Frame& news, const Hooks& hooks) {
   if (news.body.size() > kMostNews) {
     throw std::runtime_error("news of more bytes than there can be");
   }
@@ -66,7 +66,7 @@ void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
 }
 
 /// Callbacks for a task that the process works on.
-struct ChildRunner::Watch {
+struct IsolatedRunner::Watch {
   std::stop_token stop;
   std::function<bool(Frame&)> take;        ///< handles a frame. @return whether it was the last one
   std::function<bool()> enough = nullptr;  ///< see ItemTask::enough; null for jobs
@@ -79,12 +79,12 @@ std::string own_executable() {
   return target.rfind("ld-", 0) == 0 ? program_invocation_name : link;
 }
 
-ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)
+IsolatedRunner::IsolatedRunner(IsolatedRunnerOptions options, RunnerCounters& counters)
     : options_(std::move(options)), counters_(counters) {
   start();
 }
 
-ChildRunner::~ChildRunner() {
+IsolatedRunner::~IsolatedRunner() {
   if (process_ != 0) {
     ::kill(process_, SIGKILL);
     ::waitpid(process_, nullptr, 0);
@@ -92,12 +92,12 @@ ChildRunner::~ChildRunner() {
   }
 }
 
-void ChildRunner::close_ends() const {
+void IsolatedRunner::close_ends() const {
   ::close(socket_);
   ::close(control_);
 }
 
-void ChildRunner::start() {
+void IsolatedRunner::start() {
   std::array<int, 2> completions{};
   std::array<int, 2> controls{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, completions.data()) != 0) {
@@ -158,7 +158,7 @@ void ChildRunner::start() {
   }
 }
 
-void ChildRunner::give_way() {
+void IsolatedRunner::give_way() {
   gives_way_ = true;
   if (process_ != 0) {
     lower_priority();
@@ -166,13 +166,13 @@ void ChildRunner::give_way() {
 }
 
 /// Gives the process a lower priority, which it keeps; returns whether the system did it.
-bool ChildRunner::lower_priority() const {
+bool IsolatedRunner::lower_priority() const {
   return ::setpriority(PRIO_PROCESS, static_cast<id_t>(process_), kGivesWay) == 0;
 }
 
 /// Waits until the system starts a process, which is not the fault of a task; false when `stop` is requested
 /// first.
-bool ChildRunner::has_process(const std::stop_token& stop) {
+bool IsolatedRunner::has_process(const std::stop_token& stop) {
   if (process_ != 0) {
     return true;
   }
@@ -188,7 +188,7 @@ bool ChildRunner::has_process(const std::stop_token& stop) {
 }
 
 /// Starts a successor of a process that has ended or shall end. The successor knows no sweeps.
-void ChildRunner::replace() {
+void IsolatedRunner::replace() {
   if (process_ != 0) {
     close_ends();
     process_ = 0;
@@ -199,13 +199,13 @@ void ChildRunner::replace() {
 }
 
 /// Replaces a process whose priority was lowered: only a privileged user could raise it again.
-void ChildRunner::retire() {
+void IsolatedRunner::retire() {
   ::kill(process_, SIGKILL);
   ::waitpid(process_, nullptr, 0);
   replace();
 }
 
-ChildRunner::End ChildRunner::end_of_process(bool killed) {
+IsolatedRunner::End IsolatedRunner::end_of_process(bool killed) {
   int status = 0;
   ::waitpid(process_, &status, 0);
   const bool no_memory = WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemoryStatus;
@@ -220,7 +220,7 @@ ChildRunner::End ChildRunner::end_of_process(bool killed) {
 }
 
 /// Sends a frame; kills a process that does not read it. @return whether the process can still answer
-bool ChildRunner::send(FrameType type, std::string_view body) const {
+bool IsolatedRunner::send(FrameType type, std::string_view body) const {
   if (write_frame(socket_, type, body)) {
     return true;
   }
@@ -228,13 +228,13 @@ bool ChildRunner::send(FrameType type, std::string_view body) const {
   return false;
 }
 
-bool ChildRunner::control(FrameType type) const {
+bool IsolatedRunner::control(FrameType type) const {
   std::string body;
   RecordWriter(body).put(task_);
   return write_frame(control_, type, body);
 }
 
-ChildRunner::End ChildRunner::run_task(FrameType type, std::string_view body, Watch& watch) {
+IsolatedRunner::End IsolatedRunner::run_task(FrameType type, std::string_view body, Watch& watch) {
   ++task_;
   return send(type, body) ? attend(watch) : end_of_process(false);
 }
@@ -242,7 +242,7 @@ ChildRunner::End ChildRunner::run_task(FrameType type, std::string_view body, Wa
 /// Receives a frame if it is complete. Its content is not trusted, because the analysis may have corrupted
 /// the process.
 /// @return whether it was the last one; nullopt when the process is gone, or was killed for invalid content
-std::optional<bool> ChildRunner::take_frame(Watch& watch) {
+std::optional<bool> IsolatedRunner::take_frame(Watch& watch) {
   try {
     switch (received_.receive(socket_, static_cast<std::uint64_t>(options_.memory) + kMostBeside)) {
       case FrameReceiver::State::complete: {
@@ -263,7 +263,7 @@ std::optional<bool> ChildRunner::take_frame(Watch& watch) {
 
 /// Receives the frames of a task until the last one, the end of the process, or the end of the grace period
 /// after a stop request.
-ChildRunner::End ChildRunner::attend(Watch& watch) {
+IsolatedRunner::End IsolatedRunner::attend(Watch& watch) {
   alarm_.silence();  // clears a stop request that arrived while a process ended
   const std::stop_callback on_stop(watch.stop, [this] { alarm_.ring(); });
   std::optional<Clock::time_point> deadline;
@@ -320,7 +320,7 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
   }
 }
 
-JobFailure ChildRunner::failure_of(End end, int crashes) const {
+JobFailure IsolatedRunner::failure_of(End end, int crashes) const {
   switch (end) {
     case End::out_of_memory:
       return {"memory_limit",
@@ -336,7 +336,7 @@ JobFailure ChildRunner::failure_of(End end, int crashes) const {
           ""};
 }
 
-JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
+JobRun IsolatedRunner::run_job(std::string_view request, const Hooks& hooks) {
   std::string body;
   RecordWriter writer(body);
   writer.put(options_.memory);
@@ -368,7 +368,7 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
 }
 
 /// Returns the number of the sweep in the process; sends the sweep if the process does not know it.
-std::uint64_t ChildRunner::send_sweep(const ItemTask& task) {
+std::uint64_t IsolatedRunner::send_sweep(const ItemTask& task) {
   if (const auto known = sweeps_.find(task.id); known != sweeps_.end()) {
     return known->second;
   }
@@ -387,8 +387,8 @@ std::uint64_t ChildRunner::send_sweep(const ItemTask& task) {
   return number;
 }
 
-ChildRunner::End ChildRunner::attempt_items(const ItemTask& task, std::size_t& told, bool at_once,
-                                            WorkUsage& usage) {
+IsolatedRunner::End IsolatedRunner::attempt_items(const ItemTask& task, std::size_t& told, bool at_once,
+                                                  WorkUsage& usage) {
   if (!has_process(task.stop)) {
     return End::killed;
   }
@@ -430,7 +430,7 @@ ChildRunner::End ChildRunner::attempt_items(const ItemTask& task, std::size_t& t
 
 /// A process without memory first sends all outcomes, so that the next item is the cause. A crashed process
 /// may not have sent all; a second attempt sends each at once. A single remaining item is the cause.
-WorkUsage ChildRunner::run_items(const ItemTask& task) {
+WorkUsage IsolatedRunner::run_items(const ItemTask& task) {
   WorkUsage usage;
   int crashes = 0;
   bool at_once = task.items.size() == 1;
@@ -456,9 +456,10 @@ WorkUsage ChildRunner::run_items(const ItemTask& task) {
   return usage;
 }
 
-RunnerFactory child_runners(ChildRunnerOptions options, RunnerCounters& counters) {
-  return
-      [options = std::move(options), &counters] { return std::make_unique<ChildRunner>(options, counters); };
+RunnerFactory isolated_runners(IsolatedRunnerOptions options, RunnerCounters& counters) {
+  return [options = std::move(options), &counters] {
+    return std::make_unique<IsolatedRunner>(options, counters);
+  };
 }
 
 }  // namespace snapthrough::server
