@@ -99,14 +99,14 @@ TEST(SupportsOnBothSides, ABentBeamIsThatOnABilateralBase) {
 /// Normals of a curved axis are opposite everywhere.
 TEST(SupportsOnBothSides, AnArchIsThatOnABilateralBase) {
   for (const double k : {100.0, 1e4}) {
-    Model glued = arch(20.0, 1e5, 1.0);
-    add_soil(glued, k);
-    Model sides = glued;
-    glued.foundations[0].reaction = Reaction::bilateral;
+    Model bilateral = arch(20.0, 1e5, 1.0);
+    add_soil(bilateral, k);
+    Model sides = bilateral;
+    bilateral.foundations[0].reaction = Reaction::bilateral;
     sides.foundations.push_back(side_base("arch", sides.foundations[0].stiffness, Side::right));
     const Discretization mesh = fixed_mesh(16, 5);
     expect_relative(first_load(sides, AnalysisType::critical, mesh),
-                    first_load(glued, AnalysisType::critical, mesh), 1e-9, "k " + std::to_string(k));
+                    first_load(bilateral, AnalysisType::critical, mesh), 1e-9, "k " + std::to_string(k));
   }
 }
 
@@ -128,10 +128,10 @@ TEST(SupportsOnBothSides, HoldWhatNothingElseHolds) {
   Model model = drawn_column(0.0);
   model.supports = {support("0", "x")};
   model.foundations = {side_base("m1", 100.0, Side::left), side_base("m1", 100.0, Side::right)};
-  Model glued = model;
-  glued.foundations = {winkler("m1", 100.0)};
+  Model on_one = model;
+  on_one.foundations = {winkler("m1", 100.0)};
   const Result sides = solve_soundly(numbered(model), buckling_on(fixed_mesh(12, 6), 2));
-  const Result bilateral = solve_soundly(glued, buckling_on(fixed_mesh(12, 6), 2));
+  const Result bilateral = solve_soundly(on_one, buckling_on(fixed_mesh(12, 6), 2));
   EXPECT_TRUE(sides.neutral_motion.empty());
   ASSERT_EQ(sides.buckling->load_factors.size(), 2u);
   for (int i = 0; i < 2; ++i)

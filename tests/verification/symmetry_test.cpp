@@ -33,10 +33,10 @@ Model frame() {
   model.supports[1].x = true;
   model.springs = {{"k", at_member("left", 0.4), Vec2{0.3, -1.0}, 2.0, Reaction::bilateral, 0.0}};
   Foundation soil = one_sided("left", 2.0, Side::left);
-  Foundation glued = winkler("right", 1.0);
-  glued.id = "glued";
-  glued.direction = Vec2{0.4, -1.0};
-  model.foundations = {soil, glued};
+  Foundation bilateral = winkler("right", 1.0);
+  bilateral.id = "bilateral";
+  bilateral.direction = Vec2{0.4, -1.0};
+  model.foundations = {soil, bilateral};
   model.loads = {
       force_at(at_member("left", 0.55), 0.1, -1.0, 0.2), force_at(at_node("b"), 0.05, -0.3, -0.1),
       DistributedLoad{"left", {0.02, -0.05}, {0.1, 0.9}, LoadMeasure::length, Pattern::proportional},
@@ -168,10 +168,10 @@ TEST(Invariance, UnderSplittingOfAMember) {
   model.nodes.push_back({"m", 6.0 + 0.3 * 4.0, 2.5 - 0.3 * 1.0});
   model.members[1].end = "m";
   model.members.push_back({"rest", "m", "c", "s", LineCurve{}, false, false});
-  Foundation glued = model.foundations[1];
-  glued.id = "glued rest";
-  glued.member = "rest";
-  model.foundations.push_back(glued);
+  Foundation bilateral = model.foundations[1];
+  bilateral.id = "bilateral rest";
+  bilateral.member = "rest";
+  model.foundations.push_back(bilateral);
   model.loads.push_back(PressureLoad{"rest", 0.1, Side::left, Pattern::proportional});
   expect_relative(limit_load(model, fixed_mesh(24, 6)), reference_load(), 1e-8, "split");
 }

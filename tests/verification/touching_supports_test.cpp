@@ -303,10 +303,10 @@ TEST(TouchingSupports, ASpringBesideTheCrownLeavesTheArchFree) {
     // and when it is held from both sides, as the softer of the two holds it
     Model both = model;
     both.springs.push_back(side_spring(at_member("arch", 0.5), {1.0, 0.0}, -sign, 1e-6));
-    Model glued = free;
-    glued.springs = {side_spring(at_member("arch", 0.5), {1.0, 0.0}, 1.0, 1e-6, Reaction::bilateral)};
+    Model bilateral = free;
+    bilateral.springs = {side_spring(at_member("arch", 0.5), {1.0, 0.0}, 1.0, 1e-6, Reaction::bilateral)};
     expect_relative(first_load(both, AnalysisType::critical, chosen_mesh(1e-6)),
-                    first_load(glued, AnalysisType::critical, chosen_mesh(1e-6)), 2e-6, "both sides");
+                    first_load(bilateral, AnalysisType::critical, chosen_mesh(1e-6)), 2e-6, "both sides");
   }
 }
 

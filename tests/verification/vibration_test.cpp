@@ -316,7 +316,7 @@ TEST(Vibration, DoesNotExistWhereSupportsTouchWithoutPressure) {
   EXPECT_EQ(result.failure->code, "no_linear_vibration");
   ASSERT_EQ(result.vibrations->size(), 1U);
   EXPECT_EQ(result.vibrations->at(0).load_factor, 1.0);
-  // pressed everywhere, the base acts as a glued one: omega^2 = (4.730 / L)^4 EI / m + K / m
+  // pressed everywhere, the base acts as a bilateral one: omega^2 = (4.730 / L)^4 EI / m + K / m
   EXPECT_NEAR(result.vibrations->at(0).frequencies.squares[0], squared(4.730040744862704) + 50.0 / kMass,
               1e-2);
 }

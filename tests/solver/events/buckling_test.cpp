@@ -92,9 +92,9 @@ TEST(LinearBuckling, FindsSomeOfHundredsAtOneLoad) {
   EXPECT_LT(found.at.factorizations, 1000);
 }
 
-/// A base that the load presses is glued, one that it leaves is absent: an eccentric transverse force decides
-/// which. Glued, K = 4 pi^4 doubles to 5 pi^2; absent, Euler's load is left.
-TEST(LinearBuckling, GluesOnlyWhatThePrestressPresses) {
+/// A base that the load presses is bilateral, one that it leaves is absent: an eccentric transverse force
+/// decides which. Bilateral, K = 4 pi^4 doubles to 5 pi^2; absent, Euler's load is left.
+TEST(LinearBuckling, CountsAsBilateralOnlyWhatThePrestressPresses) {
   for (const double push : {1e-3, -1e-3}) {
     Model model = testing::column(1.0, 1.0, 1e8, 4.0 * kPi2 * kPi2);
     model.foundations[0].reaction = Reaction::compression_only;  // on the left: in the sense of y

@@ -108,11 +108,11 @@ TEST(ContactState, TellsWhichSupportsAct) {
   ASSERT_TRUE(found.state);
   EXPECT_NEAR(found.state->y[0], 0.01, kTolerance * 0.01);
   EXPECT_NEAR(found.state->y[1], -0.05, kTolerance * 0.05);
-  EXPECT_FALSE(problem.gripped || problem.softened) << "the glued structure's response is near enough";
+  EXPECT_FALSE(problem.gripped || problem.softened) << "the response with bilateral supports is near enough";
 }
 
-/// Nothing holds the bar until its gap closes. Glued it moves by 0.002: beyond the first gap, not to the
-/// others.
+/// Nothing holds the bar until its gap closes. On a bilateral support it moves by 0.002: beyond the first
+/// gap, not to the others.
 TEST(ContactState, ClosesAGapThatNothingHoldsUntilThen) {
   for (const double gap : {1e-3, 1.0, 30.0}) {
     Bars problem({0.0}, {{50.0, gap}}, {1.0});
