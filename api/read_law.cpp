@@ -31,6 +31,12 @@ static ReactionLaw read_table(Object& in) {
   law.type = ReactionLaw::Type::table;
   in.required("points", law.points);
   in.optional("factor", law.factor);
+  if (const auto value = in.find("interpolation")) {
+    static constexpr Named<ReactionLaw::Interpolation> kNames[] = {
+        {"monotone_cubic", ReactionLaw::Interpolation::monotone_cubic},
+        {"linear", ReactionLaw::Interpolation::linear}};
+    read_named(*value, kNames, law.interpolation);
+  }
   return law;
 }
 

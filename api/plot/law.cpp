@@ -36,7 +36,7 @@ AlongMember read_number(const Field& field) {
   return AlongMember(std::move(points));
 }
 
-/// Reads the points (w, p) of a table, which ascend from the origin.
+/// Reads the points (w, p) of a table, whose displacements ascend from the origin.
 std::vector<std::array<double, 2>> read_points(const Field& field) {
   std::vector<std::array<double, 2>> points;
   for (std::size_t i = 0; i < field.size(); ++i) {
@@ -47,9 +47,9 @@ std::vector<std::array<double, 2>> read_points(const Field& field) {
     if (!is_origin && !(pair[0] > last[0])) {
       field.item(i).item(0).fail("displacements must ascend from the origin (0, 0)");
     }
-    if (!is_origin && !(is_first ? pair[1] > 0 : pair[1] >= last[1])) {
+    if (!is_origin && !(is_first ? pair[1] > 0 : pair[1] >= 0)) {
       field.item(i).item(1).fail(is_first ? "the first force beside the origin must be positive"
-                                          : "forces must not fall");
+                                          : "forces must not be negative");
     }
     points.push_back({pair[0], pair[1]});
   }
@@ -68,6 +68,12 @@ ReactionLaw read_law(const Field& field) {
     law.points = read_points(field.at("points"));
     const std::optional<Field> factor = field.find("factor");
     law.factor = factor ? read_number(*factor) : AlongMember(1);
+    const std::string between = text_or(field, "interpolation", "monotone_cubic");
+    if (between != "monotone_cubic" && between != "linear") {
+      field.at("interpolation").fail("must be monotone_cubic or linear");
+    }
+    law.interpolation =
+        between == "linear" ? ReactionLaw::Interpolation::linear : ReactionLaw::Interpolation::monotone_cubic;
     return law;
   }
   law.stiffness = read_number(field.at("stiffness"));

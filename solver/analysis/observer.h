@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "solver/analysis/peak_watch.h"
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
 #include "solver/report/strain.h"
@@ -17,10 +18,13 @@ class Observer {
  public:
   /// @param analysis, structure kept by reference; must outlive this object
   Observer(const Analysis& analysis, const Structure& structure)
-      : analysis_(analysis), structure_(structure), gauge_(structure) {}
+      : analysis_(analysis), structure_(structure), gauge_(structure), peaks_(structure) {}
 
-  /// Records the largest strain at scaled unknowns y and scaled load factor lambda.
-  void note_strain(const Eigen::VectorXd& y, double lambda, int branch);
+  /// Begins a path.
+  void begin_path() { peaks_.start(); }
+  /// Records the largest strain, and supports that go back, at scaled unknowns y and scaled load factor
+  /// lambda.
+  void note(const Eigen::VectorXd& y, double lambda, int branch);
   /// Adds a state to the extremes, if requested.
   void add_to_extremes(const Eigen::VectorXd& y, double lambda, int branch);
   /// Adds the reported states to the extremes, and writes extremes and warnings into the result.
@@ -30,6 +34,7 @@ class Observer {
   const Analysis& analysis_;
   const Structure& structure_;
   StrainGauge gauge_;
+  PeakWatch peaks_;
   LargestStrain largest_;
   int strained_branch_ = 0;
   double strained_load_ = 0.0;

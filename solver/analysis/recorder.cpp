@@ -41,6 +41,7 @@ void Recorder::begin_branch(int branch_number, std::optional<int> parent) {
   branch_ = branch_number;
   branch_points_ = 0;
   neutral_.start(branch_);
+  observer_.begin_path();
   if (!analysis_.traits().reports_path) return;
   Branch branch;
   branch.id = branch_;
@@ -62,7 +63,7 @@ void Recorder::add_point(const PathPoint& point) {
       (output.states == StateOutput::every && points_ % output.every == 0))
     static_cast<void>(add_state(point));
   ++points_;
-  observer_.note_strain(point.y, point.lambda, branch_);
+  observer_.note(point.y, point.lambda, branch_);
   if (branch_ == 0 && !result_.summary.critical_load_factor)
     observer_.add_to_extremes(point.y, point.lambda, branch_);
   if (branch_ == 0 && !analysis_.start) softest_.set_unloaded(point);

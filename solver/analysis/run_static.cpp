@@ -130,7 +130,7 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const P
   if (probe_)
     if (const auto found = probe_->at(y, lambda)) row.frequencies = probe_->in_units(*found);
   if (visit_) visit_(index, y, lambda);
-  observer_.note_strain(y, lambda, 0);
+  observer_.note(y, lambda, 0);
   if (wants_state(index)) {
     row.state = make_state(structure_, y, lambda, analysis_.output.points_per_member);
     row.state->load_factor = analysis_.load_factors[index];

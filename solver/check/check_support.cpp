@@ -122,7 +122,7 @@ void check_number(const Place& place, const AlongMember& value) {
   }
 }
 
-/// Checks points (w, p) of a law: both ascend from the origin, w strictly.
+/// Checks points (w, p) of a law: w ascends from the origin, and the first p is positive.
 void check_points(const Place& place, const std::vector<std::array<double, 2>>& points) {
   require_count(place, points.size(), kMaxPointsAlong);
   const bool has_origin = !points.empty() && points.front()[0] == 0.0 && points.front()[1] == 0.0;
@@ -131,24 +131,24 @@ void check_points(const Place& place, const std::vector<std::array<double, 2>>& 
     place.report("empty", "a table needs a point beside the origin");
     return;
   }
-  std::array<double, 2> last{0.0, 0.0};
+  double last = 0.0;
   for (std::size_t i = first; i < points.size(); ++i) {
     const auto [w, p] = points[i];
     if (!require_finite(place / i / std::size_t{0}, w) || !require_finite(place / i / std::size_t{1}, p)) {
       return;
     }
-    if (!(w > last[0])) {
+    if (!(w > last)) {
       (place / i / std::size_t{0})
           .report("not_increasing", "displacements must ascend from the origin (0, 0)");
     }
-    if (!(p >= last[1])) {
-      (place / i / std::size_t{1}).report("not_increasing", "forces must not fall");
+    if (!(p >= 0.0)) {
+      (place / i / std::size_t{1}).report("out_of_range", "forces must not be negative");
     }
-    if (i == first && !(p > 0.0)) {
+    if (i == first && p == 0.0) {
       (place / i / std::size_t{1})
           .report("out_of_range", "the first force beside the origin must be positive");
     }
-    last = {w, p};
+    last = w;
   }
 }
 

@@ -270,7 +270,7 @@ bool CapacityEnds::is_beyond(double factor) const {
 }
 
 std::shared_ptr<const CapacityEnds> capacity_ends(const ResolvedModel& model) {
-  if (!has_supports_with_capacity(model)) return nullptr;
+  if (!has_supports_with_capacity(model) || has_falling_laws(model)) return nullptr;
   auto out =
       std::make_shared<CapacityEnds>(CapacityEnds{FreeMotions(model, HeldBy::without_capacity), {}, {}, {}});
   const CapacityBalance balance(out->motions);

@@ -144,15 +144,18 @@ struct ReactionLaw {
     tanh,        ///< p = capacity tanh(stiffness w / capacity)
     hyperbolic,  ///< p = w / (1 / stiffness + w / capacity)
     power,       ///< p = min(stiffness w, capacity (w / reference)^exponent, capacity)
-    table        ///< p = factor times the monotone cubic through `points`, constant beyond the last
+    table        ///< p = factor times a curve through `points`, constant beyond the last
   };
+  /// How a table is read between its points.
+  enum class Interpolation { monotone_cubic, linear };
   Type type = Type::linear;
-  AlongMember stiffness;   ///< slope at w = 0
-  AlongMember capacity;    ///< largest p
-  double reference = 0.0;  ///< w at which the power reaches the capacity
-  double exponent = 0.5;   ///< in (0, 1)
-  std::vector<std::array<double, 2>>
-      points;  ///< (w, p), both ascending from the origin, which may be left out
+  AlongMember stiffness;                      ///< slope at w = 0
+  AlongMember capacity;                       ///< largest p
+  double reference = 0.0;                     ///< w at which the power reaches the capacity
+  double exponent = 0.5;                      ///< in (0, 1)
+  std::vector<std::array<double, 2>> points;  ///< (w, p) from the origin on, which may be left out; w
+                                              ///< ascends, p may fall after its largest value
+  Interpolation interpolation = Interpolation::monotone_cubic;
   AlongMember factor = 1.0;
   bool operator==(const ReactionLaw&) const = default;
 };

@@ -6,13 +6,25 @@ namespace snapthrough {
 
 double capacity_at(const ReactionLaw& law, double fraction) {
   if (law.type != ReactionLaw::Type::table) return law.capacity.at(fraction);
-  return law.points.empty() ? 0.0 : law.factor.at(fraction) * law.points.back()[1];
+  double most = 0.0;
+  for (const auto& point : law.points) most = std::max(most, point[1]);
+  return law.factor.at(fraction) * most;
 }
 
 bool has_supports_with_capacity(const ResolvedModel& model) {
   const auto capped = [](const auto& support) { return has_capacity(support); };
   return std::any_of(model.springs.begin(), model.springs.end(), capped) ||
          std::any_of(model.foundations.begin(), model.foundations.end(), capped);
+}
+
+bool has_falling_laws(const ResolvedModel& model) {
+  const auto falls = [](const auto& support) {
+    if (!support.law || support.law->type != ReactionLaw::Type::table) return false;
+    return std::ranges::adjacent_find(support.law->points, [](const auto& before, const auto& after) {
+             return after[1] < before[1];
+           }) != support.law->points.end();
+  };
+  return std::ranges::any_of(model.springs, falls) || std::ranges::any_of(model.foundations, falls);
 }
 
 }  // namespace snapthrough

@@ -18,4 +18,8 @@ template <class Support>
 
 [[nodiscard]] bool has_supports_with_capacity(const ResolvedModel& model);
 
+/// @brief Whether the reaction of some support falls beyond a peak. Supports then do not carry their largest
+/// reactions all at once, so that limit analysis gives a bound of the limit load and not that load.
+[[nodiscard]] bool has_falling_laws(const ResolvedModel& model);
+
 }  // namespace snapthrough

@@ -1,5 +1,7 @@
 #include "solver/support/law.h"
 
+#include <algorithm>
+
 namespace snapthrough {
 
 Direction fixed_direction(const std::array<double, 2>& along, double sign) {
@@ -20,8 +22,9 @@ namespace {
 std::array<double, 2> largest_of(const ReactionLaw& law) {
   if (law.type != ReactionLaw::Type::table) return {law.stiffness.largest(), law.capacity.largest()};
   const double factor = law.factor.largest();
-  const double last = law.points.empty() ? 0.0 : law.points.back()[1];
-  return {factor * initial_slope(law.points), factor * last};
+  double most = 0.0;
+  for (const auto& point : law.points) most = std::max(most, point[1]);
+  return {factor * initial_slope(law), factor * most};
 }
 
 AlongMember over_largest(AlongMember value) {

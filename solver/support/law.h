@@ -49,6 +49,11 @@ struct Law {
     if (curve == nullptr) return 0.5 * stiffness * penetration * penetration;
     return capacity * capacity / stiffness * curve->energy(stiffness * penetration / capacity, shape);
   }
+  /// Penetration from which the force falls for the first time; infinite where it never does.
+  [[nodiscard]] double peak() const {
+    if (curve == nullptr || !(stiffness > 0.0)) return std::numeric_limits<double>::infinity();
+    return capacity / stiffness * curve->peak();
+  }
   /// Multiplies the force by a factor: a quadrature weight, a length, or a share of the support that acts.
   void scale(double factor) {
     stiffness *= factor;

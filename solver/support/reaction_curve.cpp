@@ -100,11 +100,11 @@ class PowerCurve final : public ReactionCurve {
   double exponent_;
 };
 
-/// Slopes of the monotone cubic of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5 (1984) 300-304) at the
-/// points: weighted harmonic means of the neighbouring chords. The cubic has no curvature at the first and
-/// the last point, so that a table on a line is that line, and so that its odd continuation is smooth at the
-/// origin.
-std::vector<double> slopes_of(const Points& points) {
+/// Slopes of the cubic of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5 (1984) 300-304) at the points,
+/// which is monotone between them: weighted harmonic means of the neighbouring chords, zero at peaks and
+/// valleys. The cubic has no curvature at the first and the last point, so that a table on a line is that
+/// line, and so that its odd continuation is smooth at the origin.
+std::vector<double> cubic_slopes(const Points& points) {
   const std::size_t n = points.size();
   std::vector<double> out(n, 0.0);
   const auto width = [&](std::size_t i) { return points[i + 1][0] - points[i][0]; };
@@ -112,7 +112,7 @@ std::vector<double> slopes_of(const Points& points) {
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double before = chord(i - 1);
     const double after = chord(i);
-    if (before <= 0.0 || after <= 0.0) continue;
+    if (!(before * after > 0.0)) continue;
     const double a = width(i) + 2.0 * width(i - 1);
     const double b = 2.0 * width(i) + width(i - 1);
     out[i] = (a + b) / (b / before + a / after);
@@ -129,81 +129,101 @@ Points with_origin(Points points) {
   return points;
 }
 
-/// Monotone cubic through a table, constant beyond its last point. x and f are the table's w and p divided by
-/// its first slope, so that f'(0) = 1 and the capacity is 1.
+/// Curve through a table, constant beyond its last point: a cubic between neighbouring points. x and f are
+/// the table's w and p over scales that make f'(0) = 1 and the largest f one.
 class TableCurve final : public ReactionCurve {
  public:
-  explicit TableCurve(const Points& given) : points_(with_origin(given)), slopes_(slopes_of(points_)) {
-    const double capacity = points_.back()[1];
-    const double stiffness = slopes_[0];
+  explicit TableCurve(const ReactionLaw& law) : points_(with_origin(law.points)) {
+    const double stiffness = initial_slope(law);
+    const bool is_smooth = law.interpolation == ReactionLaw::Interpolation::monotone_cubic;
+    std::vector<double> slopes = is_smooth ? cubic_slopes(points_) : std::vector<double>();
+    for (double& slope : slopes) slope /= stiffness;
+    double capacity = 0.0;
+    for (const auto& point : points_) capacity = std::max(capacity, point[1]);
     for (auto& [w, p] : points_) {
       w *= stiffness / capacity;
       p /= capacity;
     }
-    for (double& slope : slopes_) slope /= stiffness;
+    set_pieces(slopes);
     double sum = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (i > 0) sum += integral(i - 1, points_[i][0]);
+      if (i > 0) sum += integral(pieces_[i - 1], points_[i][0]);
       energies_.push_back(sum);
     }
   }
 
   [[nodiscard]] Values at(double x, double) const override {
     const double a = std::abs(x);
-    if (a >= points_.back()[0]) return {std::copysign(1.0, x), 0.0, 0.0};
-    const Piece piece = piece_at(a);
-    const double t = a - points_[piece.index][0];
-    const double force = points_[piece.index][1] + t * (piece.slope + t * (piece.second + t * piece.third));
-    return {std::copysign(force, x), piece.slope + t * (2.0 * piece.second + 3.0 * t * piece.third),
-            std::copysign(1.0, x) * (2.0 * piece.second + 6.0 * t * piece.third)};
+    if (a >= points_.back()[0]) return {std::copysign(points_.back()[1], x), 0.0, 0.0};
+    const Piece& piece = pieces_[piece_at(a)];
+    const double t = a - piece.from;
+    return {std::copysign(piece.force + t * (piece.slope + t * (piece.second + t * piece.third)), x),
+            piece.slope_at(t), std::copysign(1.0, x) * (2.0 * piece.second + 6.0 * t * piece.third)};
   }
   [[nodiscard]] double energy(double x, double) const override {
     const double a = std::abs(x);
-    const double last = points_.back()[0];
-    if (a >= last) return energies_.back() + (a - last);
-    const std::size_t i = piece_at(a).index;
-    return energies_[i] + integral(i, a);
+    const auto [last, force] = points_.back();
+    if (a >= last) return energies_.back() + (a - last) * force;
+    const std::size_t i = piece_at(a);
+    return energies_[i] + integral(pieces_[i], a);
   }
   [[nodiscard]] int knot_count() const override { return static_cast<int>(points_.size()); }
   [[nodiscard]] Knot knot(int index, double) const override {
     const auto i = static_cast<std::size_t>(index);
-    return {points_[i][0], i + 1 == points_.size() ? -slopes_[i] : 0.0};
+    return {points_[i][0], slope_changes_[i]};
+  }
+  [[nodiscard]] double peak() const override {
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i)
+      if (points_[i + 1][1] < points_[i][1]) return points_[i][0];
+    return ReactionCurve::peak();
   }
 
  private:
-  /// Cubic p + slope t + second t^2 + third t^3 from a point on.
+  /// Cubic force + slope t + second t^2 + third t^3 with t from a point on.
   struct Piece {
-    std::size_t index;
-    double slope, second, third;
+    double from, force, slope, second, third;
+    [[nodiscard]] double slope_at(double t) const { return slope + t * (2.0 * second + 3.0 * t * third); }
   };
-  [[nodiscard]] Piece piece(std::size_t i) const {
-    const double h = points_[i + 1][0] - points_[i][0];
-    const double chord = (points_[i + 1][1] - points_[i][1]) / h;
-    return {i, slopes_[i], (3.0 * chord - 2.0 * slopes_[i] - slopes_[i + 1]) / h,
-            (slopes_[i] + slopes_[i + 1] - 2.0 * chord) / (h * h)};
+  /// @param slopes at the points; empty: lines between them
+  void set_pieces(const std::vector<double>& slopes) {
+    slope_changes_.assign(points_.size(), 0.0);
+    double before = 0.0;
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+      const double h = points_[i + 1][0] - points_[i][0];
+      const double chord = (points_[i + 1][1] - points_[i][1]) / h;
+      const double a = slopes.empty() ? chord : slopes[i];
+      const double b = slopes.empty() ? chord : slopes[i + 1];
+      if (i > 0) slope_changes_[i] = a - before;
+      before = b;
+      pieces_.push_back({points_[i][0], points_[i][1], a, (3.0 * chord - 2.0 * a - b) / h,
+                         (a + b - 2.0 * chord) / (h * h)});
+    }
+    slope_changes_.back() = -before;
   }
   /// @pre 0 <= a < the last point
-  [[nodiscard]] Piece piece_at(double a) const {
+  [[nodiscard]] std::size_t piece_at(double a) const {
     const auto next = std::upper_bound(points_.begin(), points_.end(), a,
                                        [](double value, const auto& point) { return value < point[0]; });
-    return piece(static_cast<std::size_t>(next - points_.begin()) - 1);
+    return static_cast<std::size_t>(next - points_.begin()) - 1;
   }
-  [[nodiscard]] double integral(std::size_t i, double to) const {
-    const Piece p = piece(i);
-    const double t = to - points_[i][0];
-    return t * (points_[i][1] + t * (p.slope / 2.0 + t * (p.second / 3.0 + t * p.third / 4.0)));
+  [[nodiscard]] static double integral(const Piece& p, double to) {
+    const double t = to - p.from;
+    return t * (p.force + t * (p.slope / 2.0 + t * (p.second / 3.0 + t * p.third / 4.0)));
   }
 
   Points points_;
-  std::vector<double> slopes_;
-  std::vector<double> energies_;  ///< integral of f up to each point
+  std::vector<Piece> pieces_;          ///< between neighbouring points
+  std::vector<double> slope_changes_;  ///< jump of f' at each point
+  std::vector<double> energies_;       ///< integral of f up to each point
 };
 
 }  // namespace
 
-double initial_slope(const std::vector<std::array<double, 2>>& points) {
-  const Points all = with_origin(points);
-  return all.size() < 2 ? 0.0 : slopes_of(all)[0];
+double initial_slope(const ReactionLaw& law) {
+  const Points points = with_origin(law.points);
+  if (points.size() < 2) return 0.0;
+  return law.interpolation == ReactionLaw::Interpolation::linear ? points[1][1] / points[1][0]
+                                                                 : cubic_slopes(points)[0];
 }
 
 std::shared_ptr<const ReactionCurve> curve_of(const ReactionLaw& law) {
@@ -217,7 +237,7 @@ std::shared_ptr<const ReactionCurve> curve_of(const ReactionLaw& law) {
     case ReactionLaw::Type::power:
       return std::make_shared<PowerCurve>(law.exponent);
     case ReactionLaw::Type::table:
-      return std::make_shared<TableCurve>(law.points);
+      return std::make_shared<TableCurve>(law);
   }
   return nullptr;
 }

@@ -3,6 +3,7 @@
 /// Shapes of reaction laws that are not linear.
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,8 @@ class ReactionCurve {
   };
   /// @brief Number of knots at x >= 0. The curve has the same ones, with the opposite change, at -x.
   [[nodiscard]] virtual int knot_count() const = 0;
+  /// @brief Place x > 0 from which f falls for the first time; infinite where it never does.
+  [[nodiscard]] virtual double peak() const { return std::numeric_limits<double>::infinity(); }
   /// @param index in [0, knot_count()); knots ascend
   [[nodiscard]] virtual Knot knot(int index, double shape) const = 0;
 };
@@ -44,8 +47,9 @@ class ReactionCurve {
 /// @pre the law passed check()
 [[nodiscard]] std::shared_ptr<const ReactionCurve> curve_of(const ReactionLaw& law);
 
-/// @brief Slope at the origin of the monotone cubic through the points of a table; 0 for a table without a
-/// point beyond the origin, which check() refuses.
-[[nodiscard]] double initial_slope(const std::vector<std::array<double, 2>>& points);
+/// @brief Slope at the origin of the curve through the points of a table; 0 for a table without a point
+/// beyond the origin, which check() refuses.
+/// @pre law.type is table
+[[nodiscard]] double initial_slope(const ReactionLaw& law);
 
 }  // namespace snapthrough

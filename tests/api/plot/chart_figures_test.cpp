@@ -283,7 +283,10 @@ TEST(LawFigure, MistakesAreNamedByTheirPlaces) {
        "less than 1"},
       {{{"type", "table"}, {"points", {{0, 0}}}}, "/points", "beside the origin"},
       {{{"type", "table"}, {"points", {{1, 2}, {1, 3}}}}, "/points/1/0", "ascend"},
-      {{{"type", "table"}, {"points", {{1, 2}, {2, 1}}}}, "/points/1/1", "must not fall"}};
+      {{{"type", "table"}, {"points", {{1, 2}, {2, -1}}}}, "/points/1/1", "must not be negative"},
+      {{{"type", "table"}, {"points", {{1, 2}}}, {"interpolation", "spline"}},
+       "/interpolation",
+       "monotone_cubic or linear"}};
   for (const Case& one : cases) {
     const PlotError error = error_of(with_law(one.law), PlotKind::law);
     EXPECT_EQ(error.pointer(), std::string("/foundations/0/law") + one.pointer) << one.law;

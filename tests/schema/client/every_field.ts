@@ -40,7 +40,7 @@ const springLaws: Schemas['SpringLaw'][] = [
   {type: 'tanh', stiffness: 1e3, capacity: 20},
   {type: 'hyperbolic', stiffness: 1e3, capacity: 20},
   {type: 'power', stiffness: 1e4, capacity: 30, reference: 0.02, exponent: 0.4},
-  {type: 'table', points: [[0, 0], [0.01, 5], [0.02, 8]], factor: 2},
+  {type: 'table', points: [[0, 0], [0.01, 5], [0.02, 8]], factor: 2, interpolation: 'linear'},
 ];
 
 const springs: Schemas['Spring'][] = [
@@ -56,7 +56,7 @@ const foundationLaws: Schemas['FoundationLaw'][] = [
   {type: 'tanh', stiffness: varying, capacity: 20},
   {type: 'hyperbolic', stiffness: 1e3, capacity: varying},
   {type: 'power', stiffness: 1e4, capacity: 30, reference: 0.02, exponent: 0.4},
-  {type: 'table', points: [[0.01, 5], [0.02, 8], [0.05, 8]], factor: varying},
+  {type: 'table', points: [[0.01, 5], [0.02, 8], [0.05, 8]], factor: varying, interpolation: 'linear'},
 ];
 
 const foundations: Schemas['Foundation'][] = [

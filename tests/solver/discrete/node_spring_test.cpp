@@ -41,7 +41,7 @@ Model with_links() {
   model.loads = {PointLoad{{"d", "", 0.0}, {0.5, -1.0}, 0.0, Pattern::proportional}};
   Spring along = between("along", "a", "c");
   along.direction = {0.3, 1.0};
-  along.law = ReactionLaw{ReactionLaw::Type::tanh, 40.0, 3.0, 0.0, 0.5, {}, 1.0};
+  along.law = ReactionLaw{ReactionLaw::Type::tanh, 40.0, 3.0, 0.0, 0.5, {}, {}, 1.0};
   Spring push = between("push", "c", "b");
   push.direction = {1.0, -0.5};
   push.reaction = Reaction::compression_only;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace snapthrough {
@@ -47,6 +48,13 @@ ReactionLaw table_of(const std::vector<std::array<double, 2>>& points) {
   return law;
 }
 
+/// Points of a law that falls from a peak to a residual reaction.
+ReactionLaw falling(ReactionLaw::Interpolation interpolation) {
+  ReactionLaw law = table_of({{0.1, 1.0}, {0.25, 2.5}, {0.4, 1.6}, {0.7, 1.2}, {1.0, 1.2}});
+  law.interpolation = interpolation;
+  return law;
+}
+
 /// A law of each kind. The line of the fourth one reaches the capacity before the power.
 std::vector<ReactionLaw> laws() {
   using Type = ReactionLaw::Type;
@@ -58,6 +66,8 @@ std::vector<ReactionLaw> laws() {
       law_with(Type::power, 200.0, 4.0),
       law_with(Type::power, 6.0, 4.0),
       table,
+      falling(ReactionLaw::Interpolation::monotone_cubic),
+      falling(ReactionLaw::Interpolation::linear),
   };
 }
 
@@ -100,7 +110,9 @@ TEST(ReactionLaw, DerivativesBelongTogether) {
                   1e-4 * (1.0 + std::abs(law.response_at(w).rate)))
           << w;
       EXPECT_DOUBLE_EQ(law.force_at(-w), -law.force_at(w));
-      EXPECT_GE(law.stiffness_at(w), 0.0);
+      if (!(law.peak() <= 1.0)) {
+        EXPECT_GE(law.stiffness_at(w), 0.0);
+      }
     }
     EXPECT_DOUBLE_EQ(law.stiffness_at(0.0), initial_stiffness([&] {
                        Spring same;
@@ -117,6 +129,31 @@ TEST(ReactionLaw, DerivativesBelongTogether) {
           << i;
     }
   }
+}
+
+/// A table of straight lines is its points' own lines; a cubic table has its peaks at its points, and is
+/// monotone between them.
+TEST(ReactionLaw, FallsBeyondAPeak) {
+  using Interpolation = ReactionLaw::Interpolation;
+  const SpringLaw of_lines = spring_with(falling(Interpolation::linear));
+  const Law& lines = of_lines.law;
+  EXPECT_NEAR(lines.reaction(0.05), 0.5, 1e-14);
+  EXPECT_NEAR(lines.reaction(0.25), 2.5, 1e-14);
+  EXPECT_NEAR(lines.reaction(0.325), 2.05, 1e-14);
+  EXPECT_NEAR(lines.reaction(-0.55), -1.4, 1e-14);
+  EXPECT_NEAR(lines.reaction(3.0), 1.2, 1e-14);
+  // the area under the lines
+  EXPECT_NEAR(lines.energy(2.0), 0.05 + 0.2625 + 0.3075 + 0.42 + 1.3 * 1.2, 1e-13);
+  const SpringLaw of_cubic = spring_with(falling(Interpolation::monotone_cubic));
+  const Law& cubic = of_cubic.law;
+  for (double w = 0.0; w < 1.2; w += 0.01)
+    EXPECT_GE(cubic.reaction(w + 0.01) * (w < 0.245 ? 1.0 : -1.0) + 1e-12,
+              cubic.reaction(w) * (w < 0.245 ? 1.0 : -1.0))
+        << w;
+  EXPECT_NEAR(cubic.stiffness_at(0.25), 0.0, 1e-13);
+  for (const Law& law : {lines, cubic}) EXPECT_NEAR(law.peak(), 0.25, 1e-15);
+  const SpringLaw rising = spring_with(laws()[4]);
+  EXPECT_EQ(rising.law.peak(), std::numeric_limits<double>::infinity());
 }
 
 /// A table on a line is that line.

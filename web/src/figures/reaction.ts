@@ -14,7 +14,7 @@ export interface ReactionCurve {
 
 const kNone: ReactionCurve = { reaction: () => 0, ends: [], reach: 0 };
 
-/** A table of w and p with the slopes dp/dw of its monotone cubic. */
+/** A table of w and p with the slopes dp/dw of its cubic. */
 interface Cubic {
   w: number[];
   p: number[];
@@ -32,7 +32,7 @@ function slopesOf(w: readonly number[], p: readonly number[]): number[] {
   if (last === 1) return [at(chords, 0), at(chords, 0)];
   const inner = w.slice(1, last).map((_, i) => {
     const [before, after] = [at(chords, i), at(chords, i + 1)];
-    if (before <= 0 || after <= 0) return 0;
+    if (!(before * after > 0)) return 0;
     const [a, b] = [at(widths, i + 1) + 2 * at(widths, i), 2 * at(widths, i + 1) + at(widths, i)];
     return (a + b) / (b / before + a / after);
   });
@@ -71,14 +71,16 @@ function numberAt(value: unknown, fraction: number): number {
   return along ? interpolate(along.map(([f]) => f), along.map(([, number]) => number), fraction) : Number.NaN;
 }
 
-function tableCurve(points: unknown, factor: number): ReactionCurve | null {
+function tableCurve(points: unknown, factor: number, between: unknown): ReactionCurve | null {
   if (!Array.isArray(points) || !points.every(isPair)) return null;
   const given = points[0]?.[0] === 0 ? points : [[0, 0] as [number, number], ...points];
   if (given.length < 2 || !ascend(given)) return null;
   const w = given.map(([displacement]) => displacement);
   const p = given.map(([, force]) => force);
+  const ends = { ends: w.slice(1), reach: at(w, w.length - 1) };
+  if (between === "linear") return { reaction: (where) => factor * interpolate(w, p, where), ...ends };
   const cubic = { w, p, slopes: slopesOf(w, p) };
-  return { reaction: (where) => factor * cubicAt(cubic, where), ends: w.slice(1), reach: at(w, w.length - 1) };
+  return { reaction: (where) => factor * cubicAt(cubic, where), ...ends };
 }
 
 /** p = min(k w, P (w/w0)^n, P). The line meets the power before it meets the capacity where k w0 > P. */
@@ -96,7 +98,7 @@ export function reactionCurve(law: unknown, fraction: number): ReactionCurve | n
   const fields = law as Record<string, unknown>;
   if (fields["type"] === "table") {
     const factor = numberAt(fields["factor"] ?? 1, fraction);
-    return factor === 0 ? kNone : factor > 0 ? tableCurve(fields["points"], factor) : null;
+    return factor === 0 ? kNone : factor > 0 ? tableCurve(fields["points"], factor, fields["interpolation"]) : null;
   }
   const k = numberAt(fields["stiffness"], fraction);
   const capacity = numberAt(fields["capacity"], fraction);

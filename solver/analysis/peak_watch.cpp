@@ -1,0 +1,83 @@
+#include "solver/analysis/peak_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/discrete/element_reader.h"
+#include "solver/discrete/foundation_springs.h"
+#include "solver/numeric/number_text.h"
+
+namespace snapthrough {
+namespace {
+
+/// Limits of the watch; shares of the penetration at the peak.
+struct PeakLimits {
+  /// Way back that counts as unloading: above the error of states, below what measured peaks are known to.
+  static constexpr double back = 1e-3;
+};
+
+}  // namespace
+
+PeakWatch::PeakWatch(const Structure& structure) : structure_(structure) {
+  add_springs();
+  add_foundations();
+}
+
+void PeakWatch::add_springs() {
+  for (std::size_t i = 0; i < structure_.spring_laws.size(); ++i) {
+    const double peak = structure_.spring_laws[i].law.peak();
+    if (std::isfinite(peak)) places_.push_back({i, -1, 0.0, peak, 0.0});
+  }
+}
+
+void PeakWatch::add_foundations() {
+  const CollocationRule& rule = CollocationRule::of(structure_.mesh.order);
+  for (std::size_t k = 0; k < structure_.foundation_parts.size(); ++k) {
+    const FoundationPart& part = structure_.foundation_parts[k];
+    const FoundationLaw law = law_on(structure_, structure_.foundation_laws[part.foundation], part.element);
+    if (!std::isfinite(law.law.peak())) continue;
+    for (int q = 0; q < rule.order(); ++q) {
+      const double xi = part.range[0] + rule.point(q) * (part.range[1] - part.range[0]);
+      const double peak = law.at(place_on_axis(structure_, part.element, xi).fraction).peak();
+      if (std::isfinite(peak)) places_.push_back({0, static_cast<int>(k), xi, peak, 0.0});
+    }
+  }
+}
+
+void PeakWatch::start() {
+  for (Place& place : places_) place.most = 0.0;
+}
+
+double PeakWatch::penetration(const Place& place, const Eigen::VectorXd& y) const {
+  if (place.part < 0) {
+    const Law& law = structure_.spring_laws[place.spring].law;
+    return std::abs(law.penetration(reading_of(structure_, place.spring, y).displacement));
+  }
+  const FoundationPart& part = structure_.foundation_parts[static_cast<std::size_t>(place.part)];
+  const FoundationLaw& law = structure_.foundation_laws[part.foundation];
+  const auto u = ElementReader(structure_, y, part.element, law).displacement(place.xi);
+  const double depth = law.penetration(place_on_axis(structure_, part.element, place.xi), {u[0], u[1]}).depth;
+  return law.law.one_sided ? std::max(depth, 0.0) : std::abs(depth);
+}
+
+const std::string& PeakWatch::id_of(const Place& place) const {
+  const ResolvedModel& model = *structure_.model;
+  if (place.part < 0) return model.springs[place.spring].id;
+  const FoundationPart& part = structure_.foundation_parts[static_cast<std::size_t>(place.part)];
+  return model.foundations[static_cast<std::size_t>(part.foundation)].id;
+}
+
+void PeakWatch::note(const Eigen::VectorXd& y, double load_factor) {
+  for (Place& place : places_) {
+    const double now = penetration(place, y);
+    const bool is_back = place.most > place.peak && now < place.most - PeakLimits::back * place.peak;
+    place.most = std::max(place.most, now);
+    if (!is_back) continue;
+    const std::string& id = id_of(place);
+    if (std::ranges::find(told_, id) != told_.end()) continue;
+    told_.push_back(id);
+    text_ += (text_.empty() ? "\"" : ", \"") + id + "\" at load factor " + number(load_factor);
+  }
+}
+
+}  // namespace snapthrough
