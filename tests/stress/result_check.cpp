@@ -296,17 +296,25 @@ void Check::contact(const State& state, const RodState& at) {
   }
 }
 
-/// Least and largest reaction within the rounding of a depth and of a place. Reactions do not fall with the
-/// depth.
+/// Least and largest reaction within the rounding of a depth and of a place, where the reaction is monotone
+/// or a table has a corner.
 std::array<double, 2> reactions_near(const LawAlong& law, double fraction, bool one_sided, double depth,
                                      double noise) {
   constexpr double kPlace = 1e-14;  // rounding of a fraction
   const auto force = [&](double at, double moved) {
     return law.at(at).force(one_sided ? std::max(depth + moved, 0.0) : depth + moved);
   };
-  std::array<double, 2> out{force(fraction, -noise), force(fraction, noise)};
-  for (const double at : {fraction - kPlace, fraction + kPlace})
-    out = {std::min(out[0], force(at, -noise)), std::max(out[1], force(at, noise))};
+  std::array<double, 2> out{force(fraction, 0.0), force(fraction, 0.0)};
+  const auto widen = [&](double at, double moved) {
+    const double reaction = force(at, moved);
+    out = {std::min(out[0], reaction), std::max(out[1], reaction)};
+  };
+  for (const double at : {fraction - kPlace, fraction, fraction + kPlace}) {
+    for (const double moved : {-noise, noise}) widen(at, moved);
+    for (const double kink : law.at(at).kinks())
+      for (const double moved : {kink - depth, -kink - depth})
+        if (std::abs(moved) < noise) widen(at, moved);
+  }
   return out;
 }
 

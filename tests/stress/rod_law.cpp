@@ -23,8 +23,10 @@ double along(const std::vector<std::pair<double, double>>& points, double consta
 }
 
 /// Slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984): the weighted harmonic mean of the
-/// chords on both sides. The cubic has no second derivative at the table's ends.
-LawTable table_of(const std::vector<std::array<double, 2>>& points) {
+/// chords on both sides, zero where these have different signs. The cubic has no second derivative at the
+/// table's ends.
+LawTable table_of(const ReactionLaw& law) {
+  const std::vector<std::array<double, 2>>& points = law.points;
   LawTable out;
   if (points.front()[0] > 0.0) {
     out.w.push_back(0.0);
@@ -34,6 +36,7 @@ LawTable table_of(const std::vector<std::array<double, 2>>& points) {
     out.w.push_back(w);
     out.p.push_back(p);
   }
+  if (law.interpolation == ReactionLaw::Interpolation::linear) return out;
   const std::size_t last = out.w.size() - 1;
   std::vector<double> width(last), chord(last);
   for (std::size_t i = 0; i < last; ++i) {
@@ -43,7 +46,7 @@ LawTable table_of(const std::vector<std::array<double, 2>>& points) {
   out.slope.assign(last + 1, 0.0);
   if (last == 1) out.slope = {chord[0], chord[0]};
   for (std::size_t i = 1; i < last; ++i) {
-    if (chord[i - 1] == 0.0 || chord[i] == 0.0) continue;
+    if (!(chord[i - 1] > 0.0 && chord[i] > 0.0) && !(chord[i - 1] < 0.0 && chord[i] < 0.0)) continue;
     const double share = (width[i - 1] + 2.0 * width[i]) / (3.0 * (width[i - 1] + width[i]));
     out.slope[i] = 1.0 / (share / chord[i - 1] + (1.0 - share) / chord[i]);
   }
@@ -56,8 +59,8 @@ LawTable table_of(const std::vector<std::array<double, 2>>& points) {
 
 namespace {
 
-/// Force and slope of a table's cubic at w >= 0, in Hermite's form.
-std::array<double, 2> cubic_at(const LawTable& table, double w) {
+/// Force and slope of a table's lines at w >= 0, or of its cubic in Hermite's form.
+std::array<double, 2> table_at(const LawTable& table, double w) {
   if (w >= table.w.back()) return {table.p.back(), 0.0};
   std::size_t i = 0;
   while (w >= table.w[i + 1]) ++i;
@@ -65,6 +68,7 @@ std::array<double, 2> cubic_at(const LawTable& table, double w) {
   const double t = (w - table.w[i]) / h;
   const double r = 1.0 - t;
   const double rise = table.p[i + 1] - table.p[i];
+  if (table.slope.empty()) return {table.p[i] + rise * t, rise / h};
   const double a = h * table.slope[i];
   const double b = h * table.slope[i + 1];
   return {table.p[i] + rise * t * t * (3.0 - 2.0 * t) + a * t * r * r - b * t * t * r,
@@ -77,7 +81,7 @@ std::array<double, 2> response(const RodLaw& law, double w) {
   const double P = law.capacity;
   if (law.type == ReactionLaw::Type::linear) return {k * w, k};
   if (law.type == ReactionLaw::Type::table) {
-    const auto [force, slope] = cubic_at(*law.table, w);
+    const auto [force, slope] = table_at(*law.table, w);
     return {law.factor * force, law.factor * slope};
   }
   if (k == 0.0 || P == 0.0) return {0.0, 0.0};
@@ -110,8 +114,7 @@ std::vector<double> RodLaw::kinks() const {
 }
 
 LawAlong::LawAlong(const ReactionLaw& law) {
-  if (law.type == ReactionLaw::Type::table)
-    constant_.table = std::make_shared<const LawTable>(table_of(law.points));
+  if (law.type == ReactionLaw::Type::table) constant_.table = std::make_shared<const LawTable>(table_of(law));
   constant_.type = law.type;
   constant_.stiffness = law.stiffness.constant;
   constant_.capacity = law.capacity.constant;

@@ -18,11 +18,12 @@ namespace snapthrough::testing {
 [[nodiscard]] double along(const std::vector<std::pair<double, double>>& points, double constant,
                            double fraction, double power = 1.0);
 
-/// Points of a table from the origin on, with the slopes of its monotone cubic.
+/// Points of a table from the origin on, with the slopes of its cubic there; without slopes: straight lines.
 struct LawTable {
   std::vector<double> w, p, slope;
 };
-[[nodiscard]] LawTable table_of(const std::vector<std::array<double, 2>>& points);
+/// @pre law.type is table
+[[nodiscard]] LawTable table_of(const ReactionLaw& law);
 
 /// Reaction of a support at one place, in the model's units: an odd function of the penetration w.
 struct RodLaw {
