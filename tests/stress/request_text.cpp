@@ -94,6 +94,8 @@ Json written(const ReactionLaw& law) {
   if (law.type == ReactionLaw::Type::table) {
     out["points"] = law.points;
     out["factor"] = written(law.factor);
+    out["interpolation"] =
+        law.interpolation == ReactionLaw::Interpolation::linear ? "linear" : "monotone_cubic";
     return out;
   }
   out["stiffness"] = written(law.stiffness);

@@ -19,6 +19,7 @@
 #include "tests/stress/laws_model.h"
 #include "tests/stress/media_model.h"
 #include "tests/stress/random_model.h"
+#include "tests/stress/soil_model.h"
 
 namespace snapthrough::testing {
 namespace {
@@ -172,12 +173,14 @@ std::optional<Draw> draw_named(std::string_view name) {
   if (name == "first") return Draw::first;
   if (name == "broad") return Draw::broad;
   if (name == "laws") return Draw::laws;
-  return name == "media" ? std::optional(Draw::media) : std::nullopt;
+  if (name == "media") return Draw::media;
+  return name == "soil" ? std::optional(Draw::soil) : std::nullopt;
 }
 
 RandomRequest draw_request(Draw draw, std::uint64_t seed) {
   if (draw == Draw::laws) return laws_request(seed);
   if (draw == Draw::media) return media_request(seed);
+  if (draw == Draw::soil) return soil_request(seed);
   return draw == Draw::broad ? broad_request(seed) : random_request(seed);
 }
 

@@ -16,6 +16,7 @@
 #include "tests/stress/random_model.h"
 #include "tests/stress/request_text.h"
 #include "tests/stress/rod_law.h"
+#include "tests/stress/soil_model.h"
 #include "tests/stress/stress_run.h"
 
 namespace snapthrough::testing {
@@ -194,7 +195,7 @@ TEST(Stress, SliceOfRandomMedia) {
 TEST(Stress, RequestsOfSeedsAreWrittenWhole) {
   for (std::uint64_t seed = 0; seed < 200; ++seed)
     for (const RandomRequest& drawn : {random_request(seed), broad_request(seed), laws_request(seed),
-                                       media_request(seed), frame_request(seed, 1e-3)}) {
+                                       media_request(seed), soil_request(seed), frame_request(seed, 1e-3)}) {
       const std::string text = request_text(drawn);
       const api::ReadOutcome read = api::read_request(text);
       ASSERT_TRUE(read.request) << seed << ": " << text;
