@@ -42,6 +42,7 @@ python3 scripts/check_words.py --self-test
 python3 scripts/check_words.py
 python3 scripts/check_code_blocks.py --self-test
 python3 scripts/figures.py --self-test
+python3 scripts/try_limits.py --self-test
 bash scripts/figures.sh --list >/dev/null
 codespell README.md CONTRIBUTING.md CHANGELOG.md docs examples solver api server scripts
 bash scripts/format.sh --check
