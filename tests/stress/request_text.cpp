@@ -1,6 +1,7 @@
 #include "tests/stress/request_text.h"
 
 #include <cmath>
+#include <concepts>
 #include <nlohmann/json.hpp>
 
 namespace snapthrough::testing {
@@ -19,7 +20,19 @@ const char* name_of(Side s) { return named(s, {"left", "right"}); }
 const char* name_of(LoadMeasure m) { return named(m, {"length", "horizontal", "vertical"}); }
 const char* name_of(LoadAxes a) { return named(a, {"global", "member"}); }
 const char* name_of(ReactionLaw::Type t) {
-  return named(t, {"linear", "tanh", "hyperbolic", "power", "table"});
+  switch (t) {
+    case ReactionLaw::Type::linear:
+      return "linear";
+    case ReactionLaw::Type::tanh:
+      return "tanh";
+    case ReactionLaw::Type::hyperbolic:
+      return "hyperbolic";
+    case ReactionLaw::Type::power:
+      return "power";
+    case ReactionLaw::Type::table:
+      return "table";
+  }
+  return "";
 }
 const char* name_of(Component c) { return named(c, {"x", "y", "rotation", "normal"}); }
 
@@ -189,7 +202,9 @@ Json written(const TemperatureLoad& l) {
           {"change", written(l.change, l.change_along)},
           {"gradient", written(l.gradient, l.gradient_along)}};
 }
-Json written(const Load& load) {
+/// A load of any kind; a kind that is not written does not become a load of any kind again.
+template <std::same_as<Load> Any>
+Json written(const Any& load) {
   return std::visit(
       [](const auto& l) {
         Json out = written(l);
