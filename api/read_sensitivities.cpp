@@ -29,27 +29,32 @@ double extent_of(const Model& model) {
   return extent > 0.0 && std::isfinite(extent) ? extent : 1.0;
 }
 
+/// Largest force, moment, force per length or pressure of a load; a kind of load without it does not compile.
+double size_of(const PointLoad& load) {
+  return std::max({std::abs(load.force[0]), std::abs(load.force[1]), std::abs(load.moment)});
+}
+double size_of(const DistributedLoad& load) {
+  double size = std::max(std::abs(load.force[0]), std::abs(load.force[1]));
+  for (const auto& [fraction, force] : load.force_along) {
+    size = std::max({size, std::abs(force[0]), std::abs(force[1])});
+  }
+  return size;
+}
+double size_of(const PressureLoad& load) {
+  double size = std::abs(load.value);
+  for (const auto& [fraction, value] : load.value_along) {
+    size = std::max(size, std::abs(value));
+  }
+  return size;
+}
+double size_of(const InitialStrain&) { return 0.0; }
+double size_of(const TemperatureLoad&) { return 0.0; }
+double size_of(const SelfWeight&) { return 0.0; }  // the masses and the lengths of members determine it
+
 double largest_load(const Model& model) {
   double largest = 0.0;
-  const auto take = [&largest](double value) { largest = std::max(largest, std::abs(value)); };
   for (const Load& load : model.loads) {
-    if (const auto* point = std::get_if<PointLoad>(&load)) {
-      take(point->force[0]);
-      take(point->force[1]);
-      take(point->moment);
-    } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
-      take(distributed->force[0]);
-      take(distributed->force[1]);
-      for (const auto& [fraction, force] : distributed->force_along) {
-        take(force[0]);
-        take(force[1]);
-      }
-    } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
-      take(pressure->value);
-      for (const auto& [fraction, value] : pressure->value_along) {
-        take(value);
-      }
-    }
+    largest = std::max(largest, std::visit([](const auto& one) { return size_of(one); }, load));
   }
   return largest > 0.0 ? largest : 1.0;
 }

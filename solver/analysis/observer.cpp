@@ -29,11 +29,12 @@ void Observer::finish(Result& result) {
       widen_extremes(state.members, state.branch, state.load_factor, extremes_);
     result.extremes = std::move(extremes_);
   }
-  if (!peaks_.text().empty())
+  if (!peaks_.text().empty()) {
     result.warnings.push_back(
         {"unloaded_beyond_peak",
          "supports went back from beyond the peak of their law: " + peaks_.text() +
              "; a law is elastic, so that they regain along its curve what they had lost"});
+  }
   if (largest_.strain <= StrainLimits::small) return;
   result.warnings.push_back(
       {"large_strain", "the strain reaches " + rounded(largest_.strain) + " in member \"" + largest_.member +

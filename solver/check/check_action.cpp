@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "solver/check/check_parts.h"
+#include "solver/check/load_features.h"
 #include "solver/model/limits.h"
 #include "solver/numeric/number_text.h"
 #include "solver/support/law.h"
@@ -215,10 +216,10 @@ void check_section_data(const Place& model, const Model& data, const Names& name
 void check_moments(const LoadPlaces& places, const Model& data) {
   const auto free = nodes_free_to_turn(data);
   for (std::size_t i = 0; i < data.loads.size(); ++i) {
-    const auto* load = std::get_if<PointLoad>(&data.loads[i]);
-    if (load == nullptr || load->moment == 0.0 || !free.contains(load->at.node)) continue;
+    const LoadFeatures load = features_of(data.loads[i]);
+    if (load.place == nullptr || load.moment == 0.0 || !free.contains(load.place->node)) continue;
     (places.of(i) / "moment")
-        .report("mechanism", "the moment turns node \"" + load->at.node +
+        .report("mechanism", "the moment turns node \"" + load.place->node +
                                  "\" without deforming anything: all members are released there, and no "
                                  "support or rotational spring holds its rotation");
   }

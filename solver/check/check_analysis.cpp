@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/check/check_parts.h"
+#include "solver/check/load_features.h"
 #include "solver/discrete/mass_matrix.h"
 #include "solver/model/limits.h"
 #include "solver/numeric/max_order.h"
@@ -223,26 +224,26 @@ void check_frequencies(const Place& root, const Model& model, const Analysis& an
     const Member& member = model.members[i];
     if (!is_rod(member) || !names.sections.contains(member.section)) continue;
     const Section& section = model.sections[names.sections.index(member.section)];
-    if (section.mass && section.mass->largest() > 0.0)
+    if (section.mass && section.mass->largest() > 0.0) {
       (root / "model" / "members" / i / "section")
           .report("unsupported",
                   "a one-sided member has no mass in vibrations: give it a section without mass, and its "
                   "nodes point masses");
+    }
   }
 }
 
 /// Reports forces that are not dead where buckling is linearised, whose loads then need not be real.
 void check_linearised(const Place& root, const Model& model, const Analysis& analysis) {
-  const bool follows = std::any_of(model.loads.begin(), model.loads.end(), [](const Load& load) {
-    const auto* point = std::get_if<PointLoad>(&load);
-    return point != nullptr && !is_dead(*point);
-  });
+  const bool follows = std::any_of(model.loads.begin(), model.loads.end(),
+                                   [](const Load& load) { return !features_of(load).is_dead; });
   if (!follows) return;
-  if (analysis.traits().linearised)
+  if (analysis.traits().linearised) {
     (root / "analysis" / "type")
         .report("unsupported",
                 "linearised buckling needs dead loads; type critical takes forces that follow or keep "
                 "their line, and finds flutter where there are masses");
+  }
   for (std::size_t i = 0; i < model.imperfections.size(); ++i)
     if (std::holds_alternative<ModeImperfection>(model.imperfections[i]))
       (root / "model" / "imperfections" / i).report("not_supported", "buckling modes need dead loads");

@@ -152,24 +152,31 @@ void check_points(const Place& place, const std::vector<std::array<double, 2>>& 
   }
 }
 
+void check_limited(const Place& law, const ReactionLaw& numbers) {
+  check_number(law / "stiffness", numbers.stiffness);
+  check_number(law / "capacity", numbers.capacity);
+}
+
 void check_law(const Place& support, const ReactionLaw& law) {
-  if (law.type == ReactionLaw::Type::linear) {
-    check_number(support / "stiffness", law.stiffness);
-    return;
-  }
   const Place place = support / "law";
-  if (law.type == ReactionLaw::Type::table) {
-    check_points(place / "points", law.points);
-    check_number(place / "factor", law.factor);
-    return;
-  }
-  check_number(place / "stiffness", law.stiffness);
-  check_number(place / "capacity", law.capacity);
-  if (law.type == ReactionLaw::Type::power) {
-    require_positive(place / "reference", law.reference);
-    if (!(law.exponent > 0.0 && law.exponent < 1.0)) {
-      (place / "exponent").report("out_of_range", "exponent must be above 0 and below 1");
-    }
+  switch (law.type) {
+    case ReactionLaw::Type::linear:
+      check_number(support / "stiffness", law.stiffness);
+      return;
+    case ReactionLaw::Type::tanh:
+    case ReactionLaw::Type::hyperbolic:
+      check_limited(place, law);
+      return;
+    case ReactionLaw::Type::power:
+      check_limited(place, law);
+      require_positive(place / "reference", law.reference);
+      if (!(law.exponent > 0.0 && law.exponent < 1.0))
+        (place / "exponent").report("out_of_range", "exponent must be above 0 and below 1");
+      return;
+    case ReactionLaw::Type::table:
+      check_points(place / "points", law.points);
+      check_number(place / "factor", law.factor);
+      return;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "solver/numeric/nonnegative_least_squares.h"
 #include "solver/numeric/rounding.h"
 #include "solver/support/capacity.h"
+#include "solver/support/law_numbers.h"
 
 namespace snapthrough {
 namespace {
@@ -90,12 +91,12 @@ VectorXd CapacityBalance::on_motions(const RigidParts::Row& row) const {
 void CapacityBalance::add(const ResolvedSpring& spring) {
   const bool capped = has_capacity(spring);
   if (!capped && spring.reaction == Reaction::bilateral) return;  // holds its place: no motion of V moves it
-  const VectorXd row = sense_of(spring.reaction) * on_motions(motions_.parts().displacement(spring));
-  Support out{spring.id, spring.reaction != Reaction::bilateral, {0.0},
-              nullptr,   [row](double) { return row; },          {}};
+  VectorXd row = sense_of(spring.reaction) * on_motions(motions_.parts().displacement(spring));
+  Support out{spring.id, spring.reaction != Reaction::bilateral,         {0.0},
+              nullptr,   [row = std::move(row)](double) { return row; }, {}};
   if (capped) {
     const double unit = spring.direction ? 1.0 : 1.0 / motions_.parts().length();
-    const double capacity = unit * capacity_at(*spring.law, 0.0);
+    const double capacity = unit * numbers_of(*spring.law).capacity.at(0.0);
     out.capacity = [capacity](double) { return capacity; };
   }
   (capped ? capped_ : unbounded_).push_back(std::move(out));
@@ -118,13 +119,12 @@ void CapacityBalance::add(const ResolvedFoundation& foundation) {
   out.places = is_linear ? std::vector{from, to} : places_on(axis, foundation.range);
   out.curve = is_linear ? nullptr : &axis;
   if (capped) {
-    out.capacity = [law = *foundation.law, length = axis.length()](double fraction) {
-      return length * capacity_at(law, fraction);
-    };
-    const AlongMember& along =
-        foundation.law->type == ReactionLaw::Type::table ? foundation.law->factor : foundation.law->capacity;
-    for (const auto& point : along.points)
+    const AlongMember capacity = numbers_of(*foundation.law).capacity;
+    for (const auto& point : capacity.points)
       if (point.first > from && point.first < to) out.places.push_back(point.first);
+    out.capacity = [capacity, length = axis.length()](double fraction) {
+      return length * capacity.at(fraction);
+    };
     std::ranges::sort(out.places);
   }
   (capped ? capped_ : unbounded_).push_back(std::move(out));

@@ -8,6 +8,7 @@
 
 #include "solver/numeric/rounding.h"
 #include "solver/support/law.h"
+#include "solver/support/law_numbers.h"
 
 namespace snapthrough {
 namespace {
@@ -73,9 +74,11 @@ class Collector {
     std::vector<double>& places = actions.places;
     actions.foundations.push_back(&foundation);
     places.insert(places.end(), foundation.range.begin(), foundation.range.end());
-    if (const auto& law = foundation.law)
-      for (const AlongMember* value : {&law->stiffness, &law->capacity, &law->factor})
-        add_points_inside(value->points, foundation.range, places);
+    if (foundation.law) {
+      const LawNumbers numbers = numbers_of(*foundation.law);
+      add_points_inside(numbers.stiffness.points, foundation.range, places);
+      add_points_inside(numbers.capacity.points, foundation.range, places);
+    }
     add_points_inside(foundation.gap_along, foundation.range, places);
     if (!foundation.displacement) return;
     add_points(foundation.displacement->x.points, places);

@@ -2,8 +2,8 @@
 /// @file
 /// The four basic actions to which every load is resolved.
 ///
-/// What computes with loads visits these four; no other part of the solver but check/ knows which kinds of
-/// loads a request can have.
+/// What computes with loads visits these four; no other part of the solver but check/ and the resolving
+/// itself knows which kinds of loads a request can have.
 
 #include <array>
 #include <string>

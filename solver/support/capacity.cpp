@@ -4,13 +4,6 @@
 
 namespace snapthrough {
 
-double capacity_at(const ReactionLaw& law, double fraction) {
-  if (law.type != ReactionLaw::Type::table) return law.capacity.at(fraction);
-  double most = 0.0;
-  for (const auto& point : law.points) most = std::max(most, point[1]);
-  return law.factor.at(fraction) * most;
-}
-
 bool has_supports_with_capacity(const ResolvedModel& model) {
   const auto capped = [](const auto& support) { return has_capacity(support); };
   return std::any_of(model.springs.begin(), model.springs.end(), capped) ||

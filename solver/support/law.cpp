@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/support/law_numbers.h"
+
 namespace snapthrough {
 
 Direction fixed_direction(const std::array<double, 2>& along, double sign) {
@@ -18,15 +20,6 @@ Direction direction_of(const Foundation& foundation) {
 
 namespace {
 
-/// Largest stiffness at penetration zero and largest force of a law.
-std::array<double, 2> largest_of(const ReactionLaw& law) {
-  if (law.type != ReactionLaw::Type::table) return {law.stiffness.largest(), law.capacity.largest()};
-  const double factor = law.factor.largest();
-  double most = 0.0;
-  for (const auto& point : law.points) most = std::max(most, point[1]);
-  return {factor * initial_slope(law), factor * most};
-}
-
 AlongMember over_largest(AlongMember value) {
   const double largest = value.largest();
   if (!value.varies()) return 1.0;
@@ -35,20 +28,19 @@ AlongMember over_largest(AlongMember value) {
 
 /// Variation of a law along its member; null when the law is constant.
 std::shared_ptr<const LawVariation> variation_of(const ReactionLaw& law) {
-  if (law.type == ReactionLaw::Type::table) {
-    if (!law.factor.varies()) return nullptr;
-    return std::make_shared<LawVariation>(LawVariation{over_largest(law.factor), over_largest(law.factor)});
-  }
-  if (!law.stiffness.varies() && !law.capacity.varies()) return nullptr;
+  const LawNumbers numbers = numbers_of(law);
+  if (!numbers.stiffness.varies() && !numbers.capacity.varies()) return nullptr;
   return std::make_shared<LawVariation>(
-      LawVariation{over_largest(law.stiffness), over_largest(law.capacity)});
+      LawVariation{over_largest(numbers.stiffness), over_largest(numbers.capacity)});
 }
 
 /// Sets capacity, shape and curve of a law.
 /// @param unit scaled capacity of the capacity 1
 void set_curve(const ReactionLaw& given, const ReactionCurve* curve, double unit, Law& law) {
   if (curve == nullptr) return;
-  const auto [stiffness, capacity] = largest_of(given);
+  const LawNumbers numbers = numbers_of(given);
+  const double stiffness = numbers.stiffness.largest();
+  const double capacity = numbers.capacity.largest();
   law.capacity = unit * capacity;
   law.shape = stiffness * given.reference / capacity;
   law.curve = curve;
@@ -56,7 +48,7 @@ void set_curve(const ReactionLaw& given, const ReactionCurve* curve, double unit
 
 template <class Support>
 double stiffness_of(const Support& support) {
-  return support.law ? largest_of(*support.law)[0] : support.stiffness;
+  return support.law ? numbers_of(*support.law).stiffness.largest() : support.stiffness;
 }
 
 /// Values over their largest size.

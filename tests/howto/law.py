@@ -28,7 +28,7 @@ def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as folder:
         copy = pathlib.Path(folder)
-        changed = apply_blocks(ROOT / "docs/howto/add-a-foundation-law.md", copy, 15)
+        changed = apply_blocks(ROOT / "docs/howto/add-a-foundation-law.md", copy, 17)
         check_document(copy / "api/openapi/openapi.json")
         naming = [path.relative_to(ROOT) for layer in ("solver", "api") for path in sorted((ROOT / layer).rglob("*.cpp"))
                   if "ReactionLaw::Type" in path.read_text()]
