@@ -39,7 +39,7 @@ struct RowCounts {
   void add(const PointRow& row);
 };
 
-/// Adds an item to runs in order. @pre the item comes after all of them
+/// Adds an item to ascending runs of items. @pre its number is greater than those in the runs
 void add_item(std::vector<ItemRun>& runs, std::uint64_t item);
 
 /// Points of consecutive items that have a row. An item is done when each of its points has a row.

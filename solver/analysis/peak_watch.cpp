@@ -34,8 +34,9 @@ void PeakWatch::add_foundations() {
   const CollocationRule& rule = CollocationRule::of(structure_.mesh.order);
   for (std::size_t k = 0; k < structure_.foundation_parts.size(); ++k) {
     const FoundationPart& part = structure_.foundation_parts[k];
-    const FoundationLaw law = law_on(structure_, structure_.foundation_laws[part.foundation], part.element);
-    if (!std::isfinite(law.law.peak())) continue;
+    const FoundationLaw& given = structure_.foundation_laws[part.foundation];
+    if (!std::isfinite(given.law.peak())) continue;
+    const FoundationLaw law = law_on(structure_, given, part.element);
     for (int q = 0; q < rule.order(); ++q) {
       const double xi = part.range[0] + rule.point(q) * (part.range[1] - part.range[0]);
       const double peak = law.at(place_on_axis(structure_, part.element, xi).fraction).peak();

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Supports that go back from beyond the peak of their law.
+/// Watches along a path which supports unload from beyond the peak of their reaction law.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -24,7 +24,7 @@ class PeakWatch {
   void start();
   /// Notes a point of the path.
   /// @param y unknowns in equilibrium
-  /// @param load_factor in the user's units
+  /// @param load_factor of the point: factor on the request's proportional loads
   void note(const Eigen::VectorXd& y, double load_factor);
   /// @brief Sentence that names each support that has gone back, with the load factor at which it first had;
   /// empty: none has.

@@ -6,7 +6,7 @@
 
 namespace snapthrough {
 
-/// What the rules of a request need to know of a load.
+/// Properties of a load by which check() judges whether a request can be analysed.
 struct LoadFeatures {
   const Location* place = nullptr;  ///< one place at which the load acts; null: it acts along members
   double moment = 0.0;              ///< moment at that place

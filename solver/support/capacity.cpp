@@ -1,6 +1,9 @@
 #include "solver/support/capacity.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "solver/support/reaction_curve.h"
 
 namespace snapthrough {
 
@@ -12,10 +15,8 @@ bool has_supports_with_capacity(const ResolvedModel& model) {
 
 bool has_falling_laws(const ResolvedModel& model) {
   const auto falls = [](const auto& support) {
-    if (!support.law || support.law->type != ReactionLaw::Type::table) return false;
-    return std::ranges::adjacent_find(support.law->points, [](const auto& before, const auto& after) {
-             return after[1] < before[1];
-           }) != support.law->points.end();
+    const auto curve = support.law ? curve_of(*support.law) : nullptr;
+    return curve && std::isfinite(curve->peak());
   };
   return std::ranges::any_of(model.springs, falls) || std::ranges::any_of(model.foundations, falls);
 }

@@ -112,7 +112,8 @@ std::vector<double> cubic_slopes(const Points& points) {
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double before = chord(i - 1);
     const double after = chord(i);
-    if (!(before * after > 0.0)) continue;
+    const bool has_one_sense = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
+    if (!has_one_sense) continue;
     const double a = width(i) + 2.0 * width(i - 1);
     const double b = 2.0 * width(i) + width(i - 1);
     out[i] = (a + b) / (b / before + a / after);

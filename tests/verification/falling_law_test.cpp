@@ -24,7 +24,8 @@ ReactionLaw table(const Points& points, Interpolation interpolation) {
   return law;
 }
 
-/// Straight lines through the origin and the points, constant beyond the last.
+/// Reaction at the displacement w by straight lines through the origin and the points of a table, constant
+/// beyond the last.
 double lines(const Points& points, double w) {
   std::array<double, 2> from{0.0, 0.0};
   for (const auto& to : points) {
@@ -142,7 +143,7 @@ class SofteningBed {
   [[nodiscard]] static double force(double a) {
     const double mu = std::sqrt(std::sqrt(c));
     const double l = std::sqrt(std::sqrt(k / 4.0));
-    // v = A cosh + B (sinh - sin) + C cos: no rotation at the middle
+    // v = A cosh(mu x) + B (sinh(mu x) - sin(mu x)) + C cos(mu x), whose slope is zero at x = 0
     const double ch = std::cosh(mu * a), sh = std::sinh(mu * a), co = std::cos(mu * a), si = std::sin(mu * a);
     Eigen::Matrix4d M;
     M << ch, sh - si, co, 0.0,                                          //

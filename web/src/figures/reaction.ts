@@ -32,7 +32,8 @@ function slopesOf(w: readonly number[], p: readonly number[]): number[] {
   if (last === 1) return [at(chords, 0), at(chords, 0)];
   const inner = w.slice(1, last).map((_, i) => {
     const [before, after] = [at(chords, i), at(chords, i + 1)];
-    if (!(before * after > 0)) return 0;
+    const hasOneSense = (before > 0 && after > 0) || (before < 0 && after < 0);
+    if (!hasOneSense) return 0;
     const [a, b] = [at(widths, i + 1) + 2 * at(widths, i), 2 * at(widths, i + 1) + at(widths, i)];
     return (a + b) / (b / before + a / after);
   });
