@@ -296,8 +296,10 @@ void Check::contact(const State& state, const RodState& at) {
   }
 }
 
-/// Least and largest reaction within the rounding of a depth and of a place, where the reaction is monotone
-/// or a table has a corner.
+/// Least and largest reaction of a law that the rounding of its depth and of its place on the member allows.
+/// The law is monotone between its kinks, so that both lie at an end of the range of depths or at a kink
+/// inside.
+/// @param noise rounding of the depth, in the model's unit of length
 std::array<double, 2> reactions_near(const LawAlong& law, double fraction, bool one_sided, double depth,
                                      double noise) {
   constexpr double kPlace = 1e-14;  // rounding of a fraction
