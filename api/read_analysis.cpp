@@ -170,6 +170,7 @@ static void read(const Value& value, OutputOptions& out) {
   in.optional("points_per_member", out.points_per_member);
   in.optional("path_points", out.path_points);
   in.optional("extremes", out.extremes);
+  in.optional("stiffness_at", out.stiffness_at);
   in.optional("frequencies", out.frequencies);
   in.finish();
 }

@@ -40,9 +40,12 @@ static ReactionLaw read_table(Object& in) {
   return law;
 }
 
-static void read(const Value& value, ReactionLaw& out) {
+void read(const Value& value, ReactionLaw& out) {
   static constexpr Named<ReactionLaw (*)(Object&)> kForms[] = {
       {"tanh", read_tanh}, {"hyperbolic", read_hyperbolic}, {"power", read_power}, {"table", read_table}};
+  // a law that is not read stays a table without points, whose findings stand below the unreadable law: those
+  // of a linear law would stand at `stiffness` beside it
+  out.type = ReactionLaw::Type::table;
   read_tagged(value, kForms, out);
 }
 
@@ -59,8 +62,7 @@ static bool read_law_alone(Object& in, std::optional<ReactionLaw>& out) {
   return true;
 }
 
-/// Reads the stiffness "rigid"; false when it is another value.
-static bool read_rigid(const Value& value, double& out) {
+bool read_rigid(const Value& value, double& out) {
   if (!value.is_string()) {
     return false;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/list_foundations.h"
 #include "api/read_along.h"
 #include "api/read_law.h"
 #include "api/read_parts.h"
@@ -139,15 +140,60 @@ static void read(const Value& value, Curve& out) {
   read_tagged(value, kForms, out);
 }
 
-/// Reads the release of a member end: a list of released components, or the stiffness of its joint.
-static void read_release(const Value& value, bool& released, double& stiffness) {
+/// Components that other frame programs release at member ends, beside the rotation.
+static constexpr std::array<std::string_view, 2> kNotReleased{"axial", "shear"};
+
+static void report_not_released(const Value& value, std::string_view code, std::string_view name) {
+  value.report(code, std::string(name) +
+                         " is not released: only rotation is. An axial or shear release is two nodes at one "
+                         "place with springs between them (springs[].to)");
+}
+
+/// Reads whether a list of released components has the rotation.
+static bool read_hinge(const Value& list) {
   static constexpr std::array<std::string_view, 1> kNames{"rotation"};
+  for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) {
+    const Value item = list.item(i);
+    std::string written;
+    if (item.is_string()) {
+      read(item, written);
+    }
+    if (std::ranges::find(kNotReleased, written) != kNotReleased.end()) {
+      report_not_released(item, "unknown_value", written);
+      return false;
+    }
+  }
+  return read_set(list, kNames)[0];
+}
+
+/// Reads the moment of a joint: its stiffness, or {"law": ...}.
+static void read_moment(const Value& value, double& stiffness, std::optional<ReactionLaw>& law) {
   if (!value.is_object()) {
-    released = read_set(value, kNames)[0];
+    read(value, stiffness);
     return;
   }
   Object in(value);
-  in.required("rotation", stiffness);
+  in.required("law", law);
+  in.finish();
+}
+
+/// Reads the release of a member end: a list of released components, or the moment of its joint.
+static void read_release(const Value& value, bool& released, double& stiffness,
+                         std::optional<ReactionLaw>& law) {
+  if (!value.is_object()) {
+    released = read_hinge(value);
+    return;
+  }
+  Object in(value);
+  for (const std::string_view name : kNotReleased) {
+    if (const auto other = in.find(name)) {
+      report_not_released(*other, "unknown_field", name);
+      return;
+    }
+  }
+  if (const auto rotation = in.find_required("rotation")) {
+    read_moment(*rotation, stiffness, law);
+  }
   released = true;
   in.finish();
 }
@@ -155,11 +201,18 @@ static void read_release(const Value& value, bool& released, double& stiffness) 
 static void read_release(const Value& value, Member& out) {
   Object in(value);
   if (const auto start = in.find("start")) {
-    read_release(*start, out.release_start_rotation, out.release_start_stiffness);
+    read_release(*start, out.release_start_rotation, out.release_start_stiffness, out.release_start_law);
   }
   if (const auto end = in.find("end")) {
-    read_release(*end, out.release_end_rotation, out.release_end_stiffness);
+    read_release(*end, out.release_end_rotation, out.release_end_stiffness, out.release_end_law);
   }
+  in.finish();
+}
+
+static void read(const Value& value, Pretension& out) {
+  Object in(value);
+  in.optional("force", out.force);
+  in.optional("unstressed_length", out.unstressed_length);
   in.finish();
 }
 
@@ -174,6 +227,7 @@ static void read(const Value& value, Member& out) {
     read_release(*release, out);
   }
   in.optional("reaction", out.reaction);
+  in.optional("pretension", out.pretension);
   in.finish();
 }
 
@@ -232,6 +286,7 @@ static void read(const Value& value, Spring& out) {
   in.optional("reaction", out.reaction);
   in.optional("gap", out.gap);
   in.optional("displacement", out.displacement);
+  in.optional("pretension", out.pretension);
   in.finish();
 }
 
@@ -285,16 +340,18 @@ static void read_outline(Object& in, Foundation& out) {
   }
 }
 
-/// Reads whether a foundation acts along the normal or along the tangent.
+/// Reads whether a foundation acts along the normal, along the tangent, or against rotation.
 static void read_component(Object& in, Foundation& out) {
-  static constexpr Named<bool> kNames[] = {{"normal", false}, {"tangent", true}};
+  static constexpr Named<FoundationComponent> kNames[] = {{"normal", FoundationComponent::normal},
+                                                          {"tangent", FoundationComponent::tangent},
+                                                          {"rotation", FoundationComponent::rotation}};
   const auto component = in.find("component");
   if (!component) {
     return;
   }
-  read_named(*component, kNames, out.tangential);
-  if (out.tangential && (out.direction || in.find("side"))) {
-    component->report("ambiguous", "a foundation along the tangent has neither direction nor side");
+  read_named(*component, kNames, out.component);
+  if (out.component != FoundationComponent::normal && (out.direction || in.find("side"))) {
+    component->report("ambiguous", "only a foundation along the normal has a direction or a side");
   }
 }
 
@@ -412,6 +469,44 @@ static void read_units(const Value& value, std::vector<std::pair<std::string, st
   }
 }
 
+/// Reads a foundation whose soil gives no law, because of a mistake that was reported.
+static void read_unknown(const ListedSupport& support, Foundation& out) {
+  out.id = support.made.at("id").get<std::string>();
+  out.member = support.made.at("member").get<std::string>();
+  set_unread(out.stiffness);
+}
+
+/// Reads the foundations of a model; the soil of those that name one gives laws by depth, and springs.
+static void read_foundations(Object& in, Model& model) {
+  const auto soils = in.find("soils");
+  const auto entries = in.find("foundations");
+  if (entries && (!entries->is_array() || !has_soil(in.value().json()))) {
+    read(*entries, model.foundations);
+    return;
+  }
+  if (!entries && !soils) {
+    return;
+  }
+  ListedSupports listed = list_foundations(in.value());
+  for (ListedSupport& one : listed.foundations) {
+    const Value entry = entries->item(one.entry);
+    if (!one.made.is_null() && !one.made.contains("law")) {
+      read_unknown(one, model.foundations.emplace_back());
+      continue;
+    }
+    if (!one.made.is_null() && entry.document_report().covers(entry.pointer() + "/displacement")) {
+      one.made.erase("displacement");  // its mistakes were reported with the entry's first foundation
+    }
+    read(one.made.is_null() ? entry : Value(one.made, PointerPath(entry.pointer()), entry.document_report()),
+         model.foundations.emplace_back());
+  }
+  for (const ListedSupport& one : listed.springs) {
+    const Value entry = entries->item(one.entry);
+    read(Value(one.made, PointerPath(entry.pointer()), entry.document_report()),
+         model.springs.emplace_back());
+  }
+}
+
 void read(const Value& value, Model& model) {
   Object in(value);
   in.optional("title", model.title);
@@ -423,7 +518,7 @@ void read(const Value& value, Model& model) {
   in.required("members", model.members);
   in.optional("supports", model.supports);
   in.optional("springs", model.springs);
-  in.optional("foundations", model.foundations);
+  read_foundations(in, model);
   in.optional("loads", model.loads);
   if (const auto cases = in.find("load_cases")) {
     read_load_cases(*cases, model);

@@ -5,6 +5,7 @@
 
 #include "api/api.h"
 #include "api/json_text.h"
+#include "api/list_foundations.h"
 #include "api/read_parts.h"
 #include "api/read_sensitivities.h"
 
@@ -44,12 +45,15 @@ bool follows_from_unreadable(const Finding& finding, const Report& report) {
 }
 
 /// Returns the findings of reading, then the findings of check() about what could be read, if there is room.
-std::vector<Finding> findings_about(const Request& request, const Report& report) {
+std::vector<Finding> findings_about(const nlohmann::json& document, const Request& request,
+                                    const Report& report) {
   std::vector<Finding> all = report.listed();
   if (report.is_cut()) {
     return all;
   }
-  for (Finding& finding : check(request.model, request.analysis)) {
+  std::vector<Finding> checked = check(request.model, request.analysis);
+  name_foundation_entries(document, checked);
+  for (Finding& finding : checked) {
     if (!follows_from_unreadable(finding, report)) {
       all.push_back(std::move(finding));
     }
@@ -73,7 +77,7 @@ ReadOutcome read_request_document(std::shared_ptr<const nlohmann::json> document
   root.required("analysis", request.analysis);
   root.finish();
   read_sensitivities(document, request.model, request.analysis, report);
-  outcome.findings = findings_about(request, report);
+  outcome.findings = findings_about(*document, request, report);
   if (outcome.findings.empty()) {
     request.document = std::move(document);
     outcome.request = std::move(request);

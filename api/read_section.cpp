@@ -1,15 +1,21 @@
 /// Reader of sections.
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "api/read_along.h"
+#include "api/read_law.h"
 #include "api/read_parts.h"
+#include "solver/check/check_place.h"
 #include "solver/model/limits.h"
+#include "solver/model/profiles.h"
 #include "solver/model/section_shape.h"
 
 namespace snapthrough::api {
@@ -67,7 +73,7 @@ Shape read_tube(Object& in) {
 }
 
 Shape read_i_section(Object& in) {
-  ISection out;
+  FlangedSection out;
   read_positive(in, "depth", out.depth);
   read_positive(in, "width", out.width);
   read_positive(in, "web", out.web);
@@ -79,7 +85,7 @@ Shape read_i_section(Object& in) {
     require(!(out.root_radius < 0.0 || out.root_radius > most), in, "root_radius",
             "from 0 to where the fillet meets the edge of the flange or the other fillet", out.root_radius);
   }
-  return {i_section(out)};
+  return {flanged_section(out)};
 }
 
 /// Wall of width 1 across the plane.
@@ -103,6 +109,36 @@ void read(const Value& value, Shape& out) {
   read_tagged(value, kForms, out);
 }
 
+/// Returns ' or ' between the last two of some names in quotes, ', ' between the others.
+std::string choice_of(std::span<const std::string_view> names) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    all += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + checks::in_quotes(names[i]);
+  }
+  return all;
+}
+
+/// Reads the name of a rolled profile; an unknown one is reported with those of its series that are near.
+std::optional<RolledProfile> read_profile_name(const Value& value) {
+  if (!value.is_string()) {
+    value.report_type("the name of a rolled profile");
+    return std::nullopt;
+  }
+  const auto& written = value.json().get_ref<const std::string&>();
+  auto found = find_profile(written);
+  if (!found) {
+    const auto near = profiles_near(written);
+    std::string series;
+    for (const ProfileSeries& one : profile_series()) {
+      series += (series.empty() ? "" : ", ") + std::string(one.name);
+    }
+    value.report("unknown_value",
+                 checks::in_quotes(written) + " is not a rolled profile that is known here; " +
+                     (near.empty() ? "the series are " + series : "did you mean " + choice_of(near) + "?"));
+  }
+  return found;
+}
+
 /// Reads the name of a profile and the model's unit of length.
 Shape read_profile(Object& in) {
   static constexpr Named<double> kUnits[] = {{"m", 1e-3}, {"cm", 0.1}, {"mm", 1.0}};
@@ -112,13 +148,9 @@ Shape read_profile(Object& in) {
   if (const auto unit = in.find_required("unit")) {
     read_named(*unit, kUnits, factor);
   }
-  std::vector<std::string_view> names;
-  for (const Profile& profile : profiles()) {
-    names.push_back(profile.name);
-  }
-  const auto choice = read_choice(*in.find("profile"), names);
-  if (choice && factor > 0.0) {
-    out.geometry = i_section(scaled(profiles()[*choice].section, factor));
+  const auto profile = read_profile_name(*in.find("profile"));
+  if (profile && factor > 0.0) {
+    out.geometry = geometry_of(*profile, factor);
   }
   return out;
 }
@@ -128,10 +160,27 @@ void read_number(const Value& value, AlongMember& out) {
   read_along(value, out.constant, out.points, kLeastPoints, &out.power);
 }
 
-void read_required_number(Object& in, std::string_view key, AlongMember& out) {
+/// Reads a stiffness, which may taper or be "rigid".
+void read_stiffness(const Value& value, AlongMember& out) {
+  if (!read_rigid(value, out.constant)) {
+    read_number(value, out);
+  }
+}
+
+void read_required_stiffness(Object& in, std::string_view key, AlongMember& out) {
   set_unread(out.constant);
   if (const auto value = in.find_required(key)) {
-    read_number(*value, out);
+    read_stiffness(*value, out);
+  }
+}
+
+/// Reads the shear stiffness; a section that is rigid against shear is one without it.
+void read_shear_stiffness(Object& in, std::optional<AlongMember>& out) {
+  if (const auto value = in.find("GA")) {
+    read_stiffness(*value, out.emplace());
+    if (std::isinf(out->constant)) {
+      out.reset();
+    }
   }
 }
 
@@ -244,9 +293,9 @@ void read(const Value& value, Section& out) {
     return;
   }
   if (by_stiffness || !by_material) {
-    read_required_number(in, "EA", out.EA);
-    read_required_number(in, "EI", out.EI);
-    read_optional_number(in, "GA", out.GA);
+    read_required_stiffness(in, "EA", out.EA);
+    read_required_stiffness(in, "EI", out.EI);
+    read_shear_stiffness(in, out.GA);
     read_mass(in, nullptr, out);
   }
   if (by_shape) {

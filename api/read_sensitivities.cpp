@@ -100,7 +100,8 @@ class Sizes {
 
   /// Scale of a quantity that is zero, by its name. Only lengths and angles enter nonlinearly.
   [[nodiscard]] double of_nothing(const std::vector<std::string>& tokens) const {
-    static constexpr std::array<std::string_view, 6> kLengths{"x", "y", "rise", "amplitude", "gap", "points"};
+    static constexpr std::array<std::string_view, 9> kLengths{
+        "x", "y", "rise", "amplitude", "gap", "points", "ground_level", "water_table", "scour"};
     constexpr double kRadian = 57.0;
     const auto names = [&tokens](std::string_view name) {
       return std::find(tokens.begin(), tokens.end(), name) != tokens.end();

@@ -95,16 +95,23 @@ void FieldIndex::look_into(const Json& schema, const std::string& kind) {
 
 std::vector<std::string> objects_with_field(std::string_view field, std::string_view at) {
   static const FieldIndex index;
-  std::vector<std::string> found;
+  std::vector<std::string> of_own_kind;  // other types of the objects at the pointer: more likely meant
+  std::vector<std::string> of_others;
+  const std::string own = kind_of(at);
   for (const Owner& owner : index.owners_of(field)) {
+    if (owner.kind.starts_with(kCaseLoads)) {  // loads of cases are those of /model/loads
+      continue;
+    }
+    if (owner.kind == own && owner.type.empty()) {
+      continue;
+    }
+    std::vector<std::string>& found = owner.kind == own ? of_own_kind : of_others;
     std::string name = spoken(owner.kind, owner.type);
-    const bool is_own_kind = owner.type.empty() && owner.kind == kind_of(at);
-    const bool is_repeated = owner.kind.starts_with(kCaseLoads);  // loads of cases are those of /model/loads
-    if (!is_own_kind && !is_repeated && std::find(found.begin(), found.end(), name) == found.end()) {
+    if (std::find(found.begin(), found.end(), name) == found.end()) {
       found.push_back(std::move(name));
     }
   }
-  return found;
+  return of_own_kind.empty() ? of_others : of_own_kind;
 }
 
 }  // namespace snapthrough::api

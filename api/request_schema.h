@@ -12,7 +12,8 @@ namespace snapthrough::api {
 /// objects of /model/springs, `analysis.stop`, `members.curve of type "arc"`. Sorted by name.
 ///
 /// Thread-safe.
-/// @param at pointer of the object that lacks the field; objects of the same kind are left out
+/// @param at pointer of the object that lacks the field. Where objects of the same kind but another type have
+/// it, only these are returned.
 /// @return empty when no object has the field
 [[nodiscard]] std::vector<std::string> objects_with_field(std::string_view field, std::string_view at);
 

@@ -213,6 +213,12 @@ inline constexpr auto kFields<FoundationState> = std::tuple{
     field("contact", &FoundationState::contact),   field("resultant", &FoundationState::resultant),
     field("extremes", &FoundationState::extremes)};
 
+/// `tangent` is null where the place has no stiffness matrix.
+template <>
+inline constexpr auto kFields<PlaceStiffness> = std::tuple{
+    field<kIfAny>("node", &PlaceStiffness::node), field<kIfAny>("member", &PlaceStiffness::member),
+    field<kIfAny>("fraction", &PlaceStiffness::fraction), field("tangent", &PlaceStiffness::tangent)};
+
 template <>
 inline constexpr auto kFields<State> = std::tuple{field("branch", &State::branch),
                                                   field("load_factor", &State::load_factor),
@@ -222,7 +228,8 @@ inline constexpr auto kFields<State> = std::tuple{field("branch", &State::branch
                                                   field("supports", &State::supports),
                                                   field("springs", &State::springs),
                                                   field("foundations", &State::foundations),
-                                                  field("loads", &State::loads)};
+                                                  field("loads", &State::loads),
+                                                  field<kIfAny>("stiffness_at", &State::stiffness_at)};
 
 /// The lists have one value a load factor.
 template <>

@@ -36,7 +36,7 @@ SOLVER_ORDER = """
     numeric model result.h hooks.h resolve geometry support mesh element member discrete check column problem newton path events
     trace report sensitivity accuracy analysis sweep solve.h solve.cpp
 """.split()
-API_ORDER = "openapi . plot convert".split()
+API_ORDER = "openapi soil . plot convert".split()
 SERVER_ORDER = """
     status environment authority digest descriptor bell priority metrics log jobs store store/sqlite store/postgresql store/open_store
     worker sweeps queue neighbours maintenance resources front webhooks config key_settings settings service mcp cli main pages_main

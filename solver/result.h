@@ -237,6 +237,16 @@ struct FoundationState {
   PeakRange extremes = {};                     ///< extremes of the reaction along the whole range
 };
 /// Equilibrium state: reactions and the resultants of springs, foundations and loads sum to zero.
+/// Tangent stiffness of a place at a state: a node, or a place of a member.
+struct PlaceStiffness {
+  std::optional<std::string> node = {};
+  std::optional<std::string> member = {};
+  std::optional<double> fraction = {};
+  /// Rows: force along x, along y, moment; columns: displacement along x, along y, rotation. Everything else
+  /// is free, and the load factor stays. Empty where a support holds the place, or nothing resists its
+  /// motion.
+  std::optional<std::vector<std::array<double, 3>>> tangent = {};
+};
 struct State {
   int branch = 0;
   double load_factor = 0.0;
@@ -248,7 +258,8 @@ struct State {
   std::vector<SupportState> supports;
   std::vector<SpringState> springs;
   std::vector<FoundationState> foundations;
-  Resultant loads;  ///< resultant of all loads in the state
+  Resultant loads;                                ///< resultant of all loads in the state
+  std::vector<PlaceStiffness> stiffness_at = {};  ///< for OutputOptions::stiffness_at
 };
 
 /// Equilibria at the requested load factors that were reached, in the order of the request.
@@ -288,8 +299,8 @@ struct MemberExtremes {
   Extreme displacement;  ///< largest hypot(u, v)
 };
 
-/// Warning for the reader of a result. Codes: "large_strain", "path_points", "touching_supports",
-/// "touching_eigenvalue", "contact_changes", "worst_imperfection".
+/// Warning for the reader of a result. `code` is one of those that the OpenAPI document lists at
+/// Result.warnings.
 struct Warning {
   std::string code;
   std::string detail;

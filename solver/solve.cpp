@@ -12,8 +12,10 @@
 #include "solver/analysis/worst_offset.h"
 #include "solver/discrete/build_structure.h"
 #include "solver/discrete/free_motions.h"
+#include "solver/discrete/mechanism.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/report/apparent_joints.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
 #include "solver/resolve/resolved_model.h"
@@ -66,7 +68,9 @@ void analyse(const ResolvedModel& model, const Analysis& analysis, const Hooks& 
   std::optional<FreeMotions> motions;
   std::optional<UnilateralBalance> balance;
   HeldLoads held{{}, true, std::vector<char>(analysis.load_factors.size(), 1)};
-  if (has_one_sided_supports(model)) {
+  // what holds a loose structure when it is tight is not known in advance
+  const bool loose = analysis.geometry == Geometry::nonlinear && is_loose(model);
+  if (has_one_sided_supports(model) && !loose) {
     balance.emplace(motions.emplace(model));
     held = held_loads(model, analysis, *balance);
   }
@@ -90,7 +94,7 @@ void analyse(const ResolvedModel& model, const Analysis& analysis, const Hooks& 
   Structure structure =
       make_structure(model, analysis.sensitivities.empty() ? asked : as_stiff_as_given(asked),
                      analysis.geometry, modes, mesh_use(analysis));
-  structure.free_motions = motions ? motions->of_nodes() : free_motions(model);
+  if (!loose) structure.free_motions = motions ? motions->of_nodes() : free_motions(model);
   structure.stop = hooks.stop;
   result.diagnostics.skipped = structure.skipped;
   switch (analysis.type) {
@@ -128,6 +132,7 @@ Result run(const ResolvedModel& model, const Analysis& analysis, const Hooks& ho
                                  : "cancelled before the critical loads were checked on finer meshes");
     result.not_reached = asked_load_factors(analysis);
   }
+  for (Warning& warning : apparent_joints(model)) result.warnings.push_back(std::move(warning));
   return result;
 }
 

@@ -22,7 +22,8 @@ struct Conversion {
 
 /// @brief Returns the `foundations` of a pile in layered soil: p-y laws of API RP 2GEO and Matlock by depth.
 ///
-/// docs/howto/convert.md has the fields of the document and the formulas. A finding names its field by a JSON
+/// docs/howto/convert.md has the fields of the document and the formulas. The document may also be a request,
+/// whose foundations in soil are replaced by those that their soil gives. A finding names its field by a JSON
 /// Pointer into the document.
 /// @param text UTF-8 JSON; the caller limits its size
 [[nodiscard]] Conversion convert_soil(std::string_view text);

@@ -1,48 +1,21 @@
 /// Reader of soil documents: each function lists the fields of one object.
 
-#include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "api/convert/soil.h"
-#include "api/convert/ultimate_resistance.h"
-#include "api/value.h"
+#include "api/read_soil_layer.h"
+#include "api/soil/write_foundations.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
 
-namespace snapthrough::api::convert {
+namespace snapthrough::api {
 
-double Pile::fraction(double depth) const {
-  const double from_head = std::clamp((depth - head_depth) / length, 0.0, 1.0);
-  return head_is_start ? from_head : 1.0 - from_head;
-}
-
-std::string foundation_id(const Pile& pile, std::size_t layer, std::size_t curve) {
-  return pile.member + " layer " + std::to_string(layer) +
-         (curve > 0 ? " curve " + std::to_string(curve) : std::string());
-}
+using convert::SoilDocument;
+using soil::Layer;
+using soil::Pile;
 
 // The functions are static, not in an unnamed namespace, so that templates of api/value.h find them.
-
-/// Reports a number that was read and breaks a rule; `rule` completes "`key` must be".
-static void require(Object& in, std::string_view key, double value, bool holds, const std::string& rule) {
-  if (!holds && !std::isnan(value)) {
-    in.find(key)->report("out_of_range",
-                         std::string(key) + " must be " + rule + ", got " + checks::text(value));
-  }
-}
-
-/// Reads a required number with 0 < number <= kMaxMagnitude.
-static void read_positive(Object& in, std::string_view key, double& out) {
-  in.required(key, out);
-  require(in, key, out, out > 0.0 && out <= kMaxMagnitude, "positive and finite");
-}
-
-static void read(const Value& value, Loading& out) {
-  static constexpr Named<Loading> kNames[] = {{"static", Loading::static_}, {"cyclic", Loading::cyclic}};
-  read_named(value, kNames, out);
-}
 
 static void read(const Value& value, Pile& out) {
   static constexpr Named<bool> kEnds[] = {{"start", true}, {"end", false}};
@@ -74,70 +47,18 @@ static Layer read_layer(Object& in) {
 
 static Layer read_sand(Object& in) {
   Layer layer = read_layer(in);
-  Sand sand;
-  const bool by_coefficients = in.find("C1") || in.find("C2") || in.find("C3");
-  if (in.find("phi")) {
-    double phi = 0.0;
-    in.required("phi", phi);
-    require(in, "phi", phi, phi >= kLeastPhi && phi <= kLargestPhi,
-            "from " + checks::text(kLeastPhi) + " to " + checks::text(kLargestPhi) +
-                " degrees; outside give C1, C2 and C3");
-    const SandCoefficients coefficients = sand_coefficients(phi);
-    sand.C1 = coefficients.C1;
-    sand.C2 = coefficients.C2;
-    sand.C3 = coefficients.C3;
-    if (by_coefficients) {
-      in.value().report("ambiguous", "sand is given by phi or by C1, C2 and C3, not by both");
-    }
-  } else if (by_coefficients) {
-    read_positive(in, "C1", sand.C1);
-    read_positive(in, "C2", sand.C2);
-    read_positive(in, "C3", sand.C3);
-  } else if (in.is_readable()) {
-    in.value().report("missing_field", "sand needs phi, or C1, C2 and C3");
-  }
-  read_positive(in, "k", sand.k);
-  layer.soil = sand;
+  layer.soil = read_api_sand(in);
   return layer;
 }
 
-/// Reads the strength: one number, or two for the upper and the lower face.
-static void read_strength(Object& in, SoftClay& clay) {
-  const auto value = in.find_required("Su");
-  if (!value) {
-    return;
-  }
-  std::array<double, 2> faces{};
-  if (value->is_array()) {
-    read(*value, faces);
-  } else if (value->is_number()) {
-    read(*value, faces[0]);
-    faces[1] = faces[0];
-  } else {
-    value->report_type("a number, or two numbers for the upper and the lower face");
-    return;
-  }
-  const auto is_strength = [](double Su) { return std::isnan(Su) || (Su >= 0.0 && Su <= kMaxMagnitude); };
-  if (!is_strength(faces[0]) || !is_strength(faces[1]) || (faces[0] == 0.0 && faces[1] == 0.0)) {
-    value->report("out_of_range", "Su must be finite, not negative, and positive at one face at least");
-  }
-  clay.Su_top = faces[0];
-  clay.Su_bottom = faces[1];
-}
-
-static Layer read_soft_clay(Object& in) {
+static Layer read_clay(Object& in) {
   Layer layer = read_layer(in);
-  SoftClay clay;
-  read_strength(in, clay);
-  in.required("eps50", clay.eps50);
-  require(in, "eps50", clay.eps50, clay.eps50 > 0.0 && clay.eps50 < 1.0, "a strain between 0 and 1");
-  read_positive(in, "J", clay.J);
-  layer.soil = clay;
+  layer.soil = read_soft_clay(in);
   return layer;
 }
 
 static void read(const Value& value, Layer& out) {
-  static constexpr Named<Layer (*)(Object&)> kForms[] = {{"sand", read_sand}, {"soft_clay", read_soft_clay}};
+  static constexpr Named<Layer (*)(Object&)> kForms[] = {{"sand", read_sand}, {"soft_clay", read_clay}};
   read_tagged(value, kForms, out);
 }
 
@@ -154,8 +75,8 @@ static void read_units(const Value& value, std::map<std::string, std::string>& o
 /// Requires that layers follow one another from the surface and reach the tip. @pre all fields are readable
 static void require_order(const SoilDocument& document, Report& report) {
   double above = 0.0;
-  for (std::size_t i = 0; i < document.layers.size(); ++i) {
-    const Layer& layer = document.layers[i];
+  for (std::size_t i = 0; i < document.profile.layers.size(); ++i) {
+    const Layer& layer = document.profile.layers[i];
     if (layer.from != above) {
       report.add("/layers/" + std::to_string(i) + "/from", "out_of_range",
                  "a layer must begin where the one above it ends, at depth " + checks::text(above) +
@@ -163,12 +84,12 @@ static void require_order(const SoilDocument& document, Report& report) {
     }
     above = layer.to;
   }
-  if (document.layers.empty() || document.layers.size() > kMaxLayers) {
+  if (document.profile.layers.empty() || document.profile.layers.size() > soil::kMaxLayers) {
     report.add("/layers", "out_of_range",
-               "there must be 1 to " + std::to_string(kMaxLayers) + " layers, got " +
-                   std::to_string(document.layers.size()));
+               "there must be 1 to " + std::to_string(soil::kMaxLayers) + " layers, got " +
+                   std::to_string(document.profile.layers.size()));
   } else if (above < document.pile.tip_depth() - kMinRelativeChord * document.pile.length) {
-    report.add("/layers/" + std::to_string(document.layers.size() - 1) + "/to", "out_of_range",
+    report.add("/layers/" + std::to_string(document.profile.layers.size() - 1) + "/to", "out_of_range",
                "the layers must reach the tip of the pile at depth " +
                    checks::text(document.pile.tip_depth()) + ", got " + checks::text(above));
   }
@@ -180,29 +101,32 @@ static void read(const Value& value, SoilDocument& out) {
     read_units(*units, out.units);
   }
   in.required("pile", out.pile);
-  in.required("layers", out.layers);
-  in.required("loading", out.loading);
-  if (in.optional("accuracy", out.accuracy)) {
-    require(in, "accuracy", out.accuracy, out.accuracy >= kLeastAccuracy && out.accuracy <= kLargestAccuracy,
-            "from " + checks::text(kLeastAccuracy) + " to " + checks::text(kLargestAccuracy));
-  }
+  in.required("layers", out.profile.layers);
+  in.required("loading", out.profile.loading);
+  read_accuracy(in, out.profile.accuracy);
   in.finish();
 }
 
-SoilDocument read_soil(const nlohmann::json& json, std::vector<Finding>& findings) {
+SoilDocument convert::read_soil(const nlohmann::json& json, std::vector<Finding>& findings) {
   SoilDocument document;
   Report report;
   read(Value(json, PointerPath(), report), document);
+  document.pile.id = document.pile.member;
+  for (std::size_t i = 0; i < document.profile.layers.size(); ++i) {
+    document.profile.layers[i].number = i;
+  }
   if (report.findings().empty()) {
     require_order(document, report);
   }
   findings = report.findings();
   if (findings.empty()) {
+    Layer last;
+    last.number = soil::kMaxLayers;
     checks::Ids("foundation")
         .add(checks::Place(PointerPath("/pile/member"), findings),
-             foundation_id(document.pile, kMaxLayers, kMaxFoundations));
+             soil::foundation_id(document.pile, last, "", kMaxFoundations));
   }
   return document;
 }
 
-}  // namespace snapthrough::api::convert
+}  // namespace snapthrough::api

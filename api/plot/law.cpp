@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "api/list_foundations.h"
+
 namespace snapthrough::api::plot {
 namespace {
 
@@ -163,7 +165,8 @@ SupportLaw read_support(const Field& support, bool is_spring) {
   out.type = support.at("law").at("type").text();
   out.is_spring = is_spring;
   const std::optional<Field> direction = support.find("direction");
-  out.turns = is_spring && direction && direction->json() == "rotation";
+  out.turns = is_spring ? direction && direction->json() == "rotation"
+                        : text_or(support, "component", "normal") == "rotation";
   out.reaction = text_or(support, "reaction", "bilateral");
   if (out.reaction != "bilateral" && out.reaction != "compression_only" && out.reaction != "tension_only") {
     support.at("reaction").fail("must be bilateral, compression_only or tension_only");
@@ -225,6 +228,10 @@ std::vector<Candidate> candidates_of(const Field& model, const std::optional<std
 }  // namespace
 
 SupportLaw read_support_law(const Field& model, const std::optional<std::string>& id) {
+  if (has_soil(model.json())) {
+    const nlohmann::json made = with_laws_of_soil(model.json());
+    return read_support_law(Field(made, PointerPath(model.pointer())), id);
+  }
   const std::vector<Candidate> all = candidates_of(model, id);
   const auto chosen = std::find_if(all.begin(), all.end(), [&](const Candidate& one) {
     return (!id || one.id == *id) && one.support.find("law");

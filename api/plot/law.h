@@ -26,7 +26,7 @@ struct SupportLaw {
   std::string type;         ///< name of the law's form in the document, such as "tanh"
   std::string reaction;     ///< "bilateral", "compression_only" or "tension_only"
   bool is_spring = false;   ///< true: p is a force; false: a force per length
-  bool turns = false;       ///< rotational spring: w is a rotation in rad, p a moment
+  bool turns = false;       ///< against rotation: w is in rad, p a moment, of a foundation per length
   double gap = 0;           ///< displacement before a one-sided support reacts
   bool gap_varies = false;  ///< the gap varies along the member; `gap` is then 0
   /// One curve; three, at the start, the middle and the end of the range, where numbers vary along the

@@ -107,9 +107,13 @@ std::vector<DrawnCurve> drawn_curves(const SupportLaw& law) {
   return drawn;
 }
 
-/// Returns the unit of p: a foundation's is a force per length, a rotational spring's a moment.
+/// Returns the unit of p: a foundation's is a force per length, or against rotation a moment per length,
+/// which is a force; a rotational spring's is a moment.
 std::string reaction_unit(const SupportLaw& law, const Units& units) {
-  return unit_of(units, law.turns ? Quantity::moment : law.is_spring ? Quantity::force : Quantity::line_load);
+  if (law.turns && law.is_spring) {
+    return unit_of(units, Quantity::moment);
+  }
+  return unit_of(units, law.turns || law.is_spring ? Quantity::force : Quantity::line_load);
 }
 
 std::string law_name(const SupportLaw& law) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/list_foundations.h"
 #include "api/plot/outline.h"
 
 namespace snapthrough::api::plot {
@@ -279,6 +280,10 @@ std::string sense_of(const ModelMonitor& monitor, bool negative) {
 }
 
 Model read_model(const Field& field) {
+  if (has_soil(field.json())) {
+    const nlohmann::json made = with_laws_of_soil(field.json());
+    return read_model(Field(made, PointerPath(field.pointer())));
+  }
   Model model;
   const Field nodes = field.at("nodes");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -292,7 +297,7 @@ Model read_model(const Field& field) {
   for_each(field, "supports", [&](const Field& one) { model.supports.push_back(read_support(one)); });
   for_each(field, "springs", [&](const Field& one) { model.springs.push_back(read_spring(one)); });
   for_each(field, "foundations", [&](const Field& one) {
-    if (text_or(one, "component", "normal") != "tangent") {  // friction has no ground beside the member
+    if (text_or(one, "component", "normal") == "normal") {  // others have no ground beside the member
       model.foundations.push_back(read_foundation(one));
     }
   });

@@ -109,7 +109,7 @@ void CriticalLoads::report(const Target& target, const Answer& answer) {
     if (point.state && imbalance(structure, at.y, at.lambda) <= StateLimits::imbalance) {
       State& state = result_.states[*point.state];
       const int branch = state.branch;
-      state = make_state(structure, at.y, at.lambda, analysis_.output.points_per_member);
+      state = make_state(structure, at.y, at.lambda, analysis_.output);
       state.branch = branch;
       state.refinements = answer.level;
       if (point.mode)

@@ -16,10 +16,14 @@ std::vector<double> bending_decays(const Structure& structure, const Eigen::Vect
     for (int e = structure.mesh.first[m]; e < structure.mesh.first[m + 1]; ++e)
       tension = std::max(tension, y.segment(structure.dofs[e].s, structure.mesh.order).maxCoeff());
     double squared = tension * structure.scales.force / section.EI.least();
-    for (const ResolvedFoundation& foundation : model.foundations)
-      if (section.GA && foundation.member == static_cast<int>(m) &&
-          std::isfinite(initial_stiffness(foundation)))
-        squared += initial_stiffness(foundation) / section.GA->least();
+    for (const ResolvedFoundation& foundation : model.foundations) {
+      const double stiffness = initial_stiffness(foundation);
+      if (foundation.member != static_cast<int>(m) || !std::isfinite(stiffness)) continue;
+      if (foundation.component == FoundationComponent::rotation)
+        squared += stiffness / section.EI.least();
+      else if (section.GA)
+        squared += stiffness / section.GA->least();
+    }
     decays.push_back(1.0 / std::sqrt(squared));
   }
   return decays;

@@ -84,7 +84,12 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
 /// path's initial sense.
 [[nodiscard]] bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point);
 
-/// @brief Start of the path: the unloaded state, or the equilibrium under the constant actions.
+/// @brief Id of the node at which a motion is largest.
+/// @param motion scaled unknowns of the structure's problem, not zero
+[[nodiscard]] const std::string& node_of_largest(const Structure& structure, const Eigen::VectorXd& motion);
+
+/// @brief Start of the path: the unloaded state, or the equilibrium under the constant actions; of a
+/// structure that only tension stiffens, the equilibrium under constant actions or a little load.
 ///
 /// Constant actions are applied along a separate path from zero to their full size.
 /// @param on_unloaded receives the unloaded state with its modes; may be empty

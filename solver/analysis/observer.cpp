@@ -32,7 +32,7 @@ void Observer::finish(Result& result) {
   if (!peaks_.text().empty()) {
     result.warnings.push_back(
         {"unloaded_beyond_peak",
-         "supports went back from beyond the peak of their law: " + peaks_.text() +
+         "supports or joints went back from beyond the peak of their law: " + peaks_.text() +
              "; a law is elastic, so that they regain along its curve what they had lost"});
   }
   if (largest_.strain <= StrainLimits::small) return;

@@ -19,7 +19,7 @@ bool is_balanced(const RefinedStates& refined) {
 /// Replaces a state by that of a finer mesh.
 void replace(const Analysis& analysis, const RefinedStates& refined, State& state) {
   const StaticState& at = refined.states.front();
-  State finer = make_state(*refined.structure, at.y, at.lambda, analysis.output.points_per_member);
+  State finer = make_state(*refined.structure, at.y, at.lambda, analysis.output);
   finer.branch = state.branch;
   finer.load_factor = state.load_factor;
   finer.refinements = refined.refinements;

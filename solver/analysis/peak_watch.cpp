@@ -20,13 +20,21 @@ struct PeakLimits {
 
 PeakWatch::PeakWatch(const Structure& structure) : structure_(structure) {
   add_springs();
+  add_joints();
   add_foundations();
 }
 
 void PeakWatch::add_springs() {
   for (std::size_t i = 0; i < structure_.spring_laws.size(); ++i) {
     const double peak = structure_.spring_laws[i].law.peak();
-    if (std::isfinite(peak)) places_.push_back({i, -1, 0.0, peak, 0.0});
+    if (std::isfinite(peak)) places_.push_back({Place::Kind::spring, i, 0.0, peak, 0.0});
+  }
+}
+
+void PeakWatch::add_joints() {
+  for (std::size_t i = 0; i < structure_.joints.size(); ++i) {
+    const double peak = structure_.joints[i].law.peak();
+    if (std::isfinite(peak)) places_.push_back({Place::Kind::joint, i, 0.0, peak, 0.0});
   }
 }
 
@@ -40,7 +48,7 @@ void PeakWatch::add_foundations() {
     for (int q = 0; q < rule.order(); ++q) {
       const double xi = part.range[0] + rule.point(q) * (part.range[1] - part.range[0]);
       const double peak = law.at(place_on_axis(structure_, part.element, xi).fraction).peak();
-      if (std::isfinite(peak)) places_.push_back({0, static_cast<int>(k), xi, peak, 0.0});
+      if (std::isfinite(peak)) places_.push_back({Place::Kind::foundation, k, xi, peak, 0.0});
     }
   }
 }
@@ -49,23 +57,41 @@ void PeakWatch::start() {
   for (Place& place : places_) place.most = 0.0;
 }
 
-double PeakWatch::penetration(const Place& place, const Eigen::VectorXd& y) const {
-  if (place.part < 0) {
-    const Law& law = structure_.spring_laws[place.spring].law;
-    return std::abs(law.penetration(reading_of(structure_, place.spring, y).displacement));
-  }
-  const FoundationPart& part = structure_.foundation_parts[static_cast<std::size_t>(place.part)];
+double PeakWatch::depth_in(const FoundationPart& part, double xi, const Eigen::VectorXd& y) const {
   const FoundationLaw& law = structure_.foundation_laws[part.foundation];
-  const auto u = ElementReader(structure_, y, part.element, law).displacement(place.xi);
-  const double depth = law.penetration(place_on_axis(structure_, part.element, place.xi), {u[0], u[1]}).depth;
+  const auto u = ElementReader(structure_, y, part.element, law).displacement(xi);
+  const double depth = law.penetration(place_on_axis(structure_, part.element, xi), {u[0], u[1]}).depth;
   return law.law.one_sided ? std::max(depth, 0.0) : std::abs(depth);
 }
 
-const std::string& PeakWatch::id_of(const Place& place) const {
+double PeakWatch::penetration(const Place& place, const Eigen::VectorXd& y) const {
+  switch (place.kind) {
+    case Place::Kind::spring: {
+      const Law& law = structure_.spring_laws[place.index].law;
+      return std::abs(law.penetration(reading_of(structure_, place.index, y).displacement));
+    }
+    case Place::Kind::joint:
+      return std::abs(structure_.joints[place.index].rotation(y));
+    case Place::Kind::foundation:
+      return depth_in(structure_.foundation_parts[place.index], place.xi, y);
+  }
+  return 0.0;
+}
+
+std::string PeakWatch::name_of(const Place& place) const {
   const ResolvedModel& model = *structure_.model;
-  if (place.part < 0) return model.springs[place.spring].id;
-  const FoundationPart& part = structure_.foundation_parts[static_cast<std::size_t>(place.part)];
-  return model.foundations[static_cast<std::size_t>(part.foundation)].id;
+  switch (place.kind) {
+    case Place::Kind::spring:
+      return "\"" + model.springs[place.index].id + "\"";
+    case Place::Kind::joint: {
+      const JointSpring& joint = structure_.joints[place.index];
+      return std::string("the joint at the ") + (joint.at_end ? "end" : "start") + " of \"" +
+             model.members[joint.member].id + "\"";
+    }
+    case Place::Kind::foundation:
+      return "\"" + model.foundations[structure_.foundation_parts[place.index].foundation].id + "\"";
+  }
+  return {};
 }
 
 void PeakWatch::note(const Eigen::VectorXd& y, double load_factor) {
@@ -74,10 +100,10 @@ void PeakWatch::note(const Eigen::VectorXd& y, double load_factor) {
     const bool is_back = place.most > place.peak && now < place.most - PeakLimits::back * place.peak;
     place.most = std::max(place.most, now);
     if (!is_back) continue;
-    const std::string& id = id_of(place);
-    if (std::ranges::find(told_, id) != told_.end()) continue;
-    told_.push_back(id);
-    text_ += (text_.empty() ? "\"" : ", \"") + id + "\" at load factor " + number(load_factor);
+    const std::string name = name_of(place);
+    if (std::ranges::find(told_, name) != told_.end()) continue;
+    told_.push_back(name);
+    text_ += (text_.empty() ? "" : ", ") + name + " at load factor " + number(load_factor);
   }
 }
 

@@ -31,7 +31,7 @@ std::optional<int> Recorder::add_state(const PathPoint& point, double most) {
     refused_ += (refused_.empty() ? "" : "; ") + imbalance_text(user_load(point), left);
     return std::nullopt;
   }
-  State state = make_state(structure_, point.y, point.lambda, analysis_.output.points_per_member);
+  State state = make_state(structure_, point.y, point.lambda, analysis_.output);
   state.branch = branch_;
   result_.states.push_back(std::move(state));
   return static_cast<int>(result_.states.size()) - 1;

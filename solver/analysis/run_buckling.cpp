@@ -159,11 +159,11 @@ void warn_of_changed_laws(const Structure& structure, StructuralProblem& problem
   result.warnings.push_back(
       {"laws_change",
        "the load factor " + number(*result.summary.critical_load_factor) +
-           " is not to be relied on, because reactions by laws do not grow in proportion to the "
-           "load: under the critical load " +
+           " is not to be relied on, because reactions and moments by laws do not grow in proportion to "
+           "the load: under the critical load " +
            change +
            "; a reference load near the critical load makes the linearised analysis exact, a "
-           "path or a search for the critical load follows the reactions"});
+           "path or a search for the critical load follows the laws"});
 }
 
 /// Sentence on buckling loads that an inertia count does not confirm.
@@ -239,7 +239,7 @@ std::string reversed_text(const FoundLoads& reversed) {
 /// Sentence on a reference load without an equilibrium. @param share of it that has one
 std::string unheld_reference(double share) {
   return "no equilibrium with small displacements was found under the reference load (load factor 1), about "
-         "which buckling is linearised; the supports hold load factors up to about " +
+         "which buckling is linearised; supports and joints hold load factors up to about " +
          rounded(share);
 }
 

@@ -28,6 +28,7 @@
 #include "solver/report/result_parts.h"
 #include "solver/report/state.h"
 #include "solver/report/support_state.h"
+#include "solver/support/capacity.h"
 #include "solver/trace/trace.h"
 
 namespace snapthrough {
@@ -132,7 +133,7 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const P
   if (visit_) visit_(index, y, lambda);
   observer_.note(y, lambda, 0);
   if (wants_state(index)) {
-    row.state = make_state(structure_, y, lambda, analysis_.output.points_per_member);
+    row.state = make_state(structure_, y, lambda, analysis_.output);
     row.state->load_factor = analysis_.load_factors[index];
   } else {
     observer_.add_to_extremes(y, lambda, 0);
@@ -362,6 +363,34 @@ bool follow(const Analysis& analysis, const Structure& structure, const Capacity
   return false;
 }
 
+/// Finds each state of a structure that only tension stiffens alone, by least energy: no path from an
+/// unloaded state leads there.
+void find_tight_states(const Analysis& analysis, const Structure& structure, StaticRows& states,
+                       Result& result) {
+  StructuralProblem problem(structure);
+  PathFollower follower(problem);
+  PointSolver& solver = follower.solver();
+  solver.norm().ignore_load();
+  VectorXd y = VectorXd::Zero(structure.size);
+  for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
+    if (!states.lacks(i)) continue;
+    const std::string where = "at load factor " + number(analysis.load_factors[i]);
+    if (!solver.find_tight_state(analysis.load_factors[i] * structure.scales.load, y)) {
+      fail(result, "no_convergence",
+           "no stable equilibrium was found " + where + "; the structure is loose without load");
+    } else if (const VectorXd motion = solver.unresisted_motion(); motion.size() > 0) {
+      fail(result, "loose_part",
+           where +
+               " a part of the structure hangs on slack members, so that its place is not determined (the "
+               "motion is largest near node \"" +
+               node_of_largest(structure, motion) + "\")");
+    } else {
+      states.set(i, y, 0, {});
+    }
+  }
+  add_statistics(follower.statistics(), result);
+}
+
 /// Computes the states at all requested load factors.
 void compute(const Analysis& analysis, const Structure& structure, const CapacityEnds* capacity,
              const Hooks& hooks, StaticRows& states, Result& result) {
@@ -376,9 +405,12 @@ void compute(const Analysis& analysis, const Structure& structure, const Capacit
         neutral.note(holds, analysis.load_factors[i]);
       } else {
         fail(result, "no_convergence",
-             "no equilibrium was found at load factor " + number(analysis.load_factors[i]));
+             "no equilibrium was found at load factor " + number(analysis.load_factors[i]) +
+                 (has_joint_laws(*structure.model) ? "; joints with laws may carry no larger moment" : ""));
       }
     }
+  } else if (structure.traits.loose) {
+    find_tight_states(analysis, structure, states, result);
   } else {
     const bool falling = states.asks_for([](double factor) { return factor < 0.0; });
     const bool growing = states.asks_for([](double factor) { return factor >= 0.0; });
@@ -468,6 +500,9 @@ void run_static(const Analysis& analysis, const Structure& structure, const Held
   (of_finer ? *of_finer : states).move_to(result);
   warn_of_untested_flutter(structure, result);
   report_stability(analysis, result);
+  if (structure.traits.loose)
+    result.summary.message +=
+        "; the structure is loose without load, and each state was found by least energy";
 }
 
 }  // namespace snapthrough

@@ -24,11 +24,12 @@ struct StartLimits {
   /// Distance of the equilibrium from the given state, over the norm of the given displacements.
   static constexpr double given_state = 0.02;
   static constexpr double first_load = 1e-2;  ///< first step of the constant actions, share of them
+  /// Load factor at which the path of a structure begins that has no state without load.
+  static constexpr double tight_load = 1e-3;
 };
 
 /// Explains why no equilibrium was found under the first small load.
 std::string nothing_found(const Structure& structure, const PathStart& start) {
-  const ResolvedModel& model = *structure.model;
   const Eigen::VectorXd& motion = start.free_motion;
   if (const auto& far = start.far_state) {
     return "the first state that was found lies farther from the unloaded structure than its gaps and "
@@ -38,17 +39,9 @@ std::string nothing_found(const Structure& structure, const PathStart& start) {
   }
   if (motion.size() == 0)
     return "no equilibrium was found for the first small load: contact alone may not hold the structure";
-  std::size_t node = 0;
-  double largest = 0.0;
-  for (int j = 0; j < structure.first_ground; ++j) {
-    const double size = DofMap::displacement(motion, j).lpNorm<Eigen::Infinity>();
-    if (size <= largest) continue;
-    largest = size;
-    node = static_cast<std::size_t>(j);
-  }
   return "under the first small load a part of the structure can move freely: nothing presses it onto its "
          "one-sided supports, and nothing else holds it (the motion is largest near node \"" +
-         model.nodes[node].id + "\")";
+         node_of_largest(structure, motion) + "\")";
 }
 
 void fail_to_start(const Structure& structure, const PathStart& start, Result& result) {
@@ -110,6 +103,42 @@ void hand_on_stability(const Structure& structure, StructuralProblem& problem, c
 
 }  // namespace
 
+namespace {
+
+/// The first point of a path of a structure that only tension stiffens: under the constant actions, or where
+/// these do not stiffen it under a little of the others.
+PathStart start_where_tight(const Structure& structure, PointSolver& solver, double direction,
+                            Result& result) {
+  const double little = direction * StartLimits::tight_load * structure.scales.load;
+  for (const double lambda : {0.0, little}) {
+    if (lambda == 0.0 && !structure.has_constant) continue;
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(structure.size);
+    solver.norm().ignore_load();
+    if (!solver.find_tight_state(lambda, y) || solver.unresisted_motion().size() > 0) continue;
+    PathStart start = start_near(solver, y, lambda, direction);
+    if (start) return start;
+  }
+  fail(result, "no_start",
+       "members that only pull do not hold the structure: no stable equilibrium, in which no part hangs on "
+       "slack members, was found under its constant actions, nor under " +
+           rounded(StartLimits::tight_load) + " of the loads");
+  return {};
+}
+
+}  // namespace
+
+const std::string& node_of_largest(const Structure& structure, const Eigen::VectorXd& motion) {
+  std::size_t node = 0;
+  double largest = 0.0;
+  for (int j = 0; j < structure.first_ground; ++j) {
+    const double size = DofMap::displacement(motion, j).lpNorm<Eigen::Infinity>();
+    if (size <= largest) continue;
+    largest = size;
+    node = static_cast<std::size_t>(j);
+  }
+  return structure.model->nodes[node].id;
+}
+
 PathStart start_at_state(const Structure& structure, PointSolver& solver, const Analysis& analysis,
                          Result& result) {
   const StartState& state = *analysis.start;
@@ -146,6 +175,7 @@ PathStart start_at_state(const Structure& structure, PointSolver& solver, const 
 PathStart start_of_path(const Structure& structure, StructuralProblem& problem, PointSolver& solver,
                         double direction, const Hooks& hooks, Result& result,
                         const std::function<void(const PathPoint&)>& on_unloaded) {
+  if (structure.traits.loose) return start_where_tight(structure, solver, direction, result);
   if (!structure.has_constant) {
     PathStart start = find_start(solver, direction);
     if (!start) fail_to_start(structure, start, result);

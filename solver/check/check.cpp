@@ -27,7 +27,13 @@ std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   checks::check_analysis(root, model, analysis, names);
   checks::check_supported(root, model, analysis);
   if (findings.empty()) checks::check_obstacles(root, model, analysis);
-  return findings.empty() ? find_mechanism(resolve(model)) : findings;
+  if (!findings.empty()) return findings;
+  const ResolvedModel resolved = resolve(model);
+  findings = find_mechanism(resolved);
+  // with large displacements, members that pull may hold what moves at first
+  const bool may_tighten = analysis.geometry == Geometry::nonlinear && !analysis.traits().linearised;
+  if (!findings.empty() && may_tighten && is_loose(resolved)) findings.clear();
+  return findings;
 }
 
 }  // namespace snapthrough

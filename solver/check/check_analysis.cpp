@@ -206,6 +206,17 @@ void check_output(const Place& place, const Model& model, const OutputOptions& o
   }
 }
 
+/// Checks the places whose tangent stiffness is asked for.
+void check_stiffness_at(const Place& root, const Analysis& analysis, const Names& names) {
+  const Place asked = root / "analysis" / "output" / "stiffness_at";
+  const std::vector<Location>& places = analysis.output.stiffness_at;
+  require_count(asked, places.size(), kMaxStiffnesses);
+  if (!places.empty() && (analysis.traits().linearised || analysis.traits().vibrates))
+    asked.report("unsupported",
+                 "only states of a critical, path or static analysis have a tangent stiffness");
+  for (std::size_t i = 0; i < places.size(); ++i) check_location(asked / i, places[i], names);
+}
+
 /// Reports frequencies that are asked for without masses, or where no analysis gives them.
 void check_frequencies(const Place& root, const Model& model, const Analysis& analysis, const Names& names) {
   const Place asked = root / "analysis" / "output" / "frequencies";
@@ -274,6 +285,7 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   check_output(place / "output", model, analysis.output);
   require_count(place / "sensitivities", analysis.sensitivities.size(), kMaxSensitivities);
   check_frequencies(root, model, analysis, names);
+  check_stiffness_at(root, analysis, names);
   check_linearised(root, model, analysis);
   if (analysis.traits().has_rows && !analysis.traits().vibrates &&
       analysis.output.states == StateOutput::at_load_factors) {

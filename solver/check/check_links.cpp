@@ -34,13 +34,13 @@ bool require_beam(const Place& place, const std::string& member, const Names& na
 void check_rod(const Place& place, const Member& rod) {
   if (!std::holds_alternative<LineCurve>(rod.curve))
     (place / "curve").report("not_supported", "a one-sided member is straight: leave curve out");
-  const auto require_hinge = [&place](const char* end, double stiffness) {
-    if (stiffness > 0.0)
+  const auto require_hinge = [&place](const char* end, bool resists) {
+    if (resists)
       (place / "release" / end / "rotation")
           .report("not_supported", "a one-sided member is hinged at both ends: leave release out");
   };
-  require_hinge("start", rod.release_start_stiffness);
-  require_hinge("end", rod.release_end_stiffness);
+  require_hinge("start", rod.release_start_stiffness > 0.0 || rod.release_start_law);
+  require_hinge("end", rod.release_end_stiffness > 0.0 || rod.release_end_law);
 }
 
 void check_other_end(const Place& place, const Spring& spring,

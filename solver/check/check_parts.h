@@ -52,12 +52,19 @@ void check_along(const Place& field, const Along<T>& along, std::size_t most, Ch
   }
 }
 
+/// Checks the law of what acts at one place, whose numbers must be constant.
+/// @param owner place of the spring or joint; its law is at `law` there
+void check_law_at_one_place(const Place& owner, const ReactionLaw& law);
 /// Requires a node of the model, or a member with a fraction in [0, 1].
 void check_location(const Place& place, const Location& location, const Names& names);
 /// Requires a member of the model that is not one-sided.
 bool require_beam(const Place& place, const std::string& member, const Names& names);
 /// Requires what one-sided members cannot have to be left out.
 void check_rod(const Place& place, const Member& rod);
+/// Checks the pretension of a member. @pre member.pretension; the names of nodes and sections are known
+void check_pretension(const Place& place, const Member& member, const Model& data, const Names& names);
+/// Checks the pretension of a spring. @pre spring.pretension; the names of nodes are known
+void check_pretension(const Place& place, const Spring& spring, const Model& data, const Names& names);
 /// Nodes whose rotation no member, support or spring to ground resists.
 [[nodiscard]] std::unordered_set<std::string> nodes_free_to_turn(const Model& model);
 /// Checks the ends of a spring between two nodes.

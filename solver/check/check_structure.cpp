@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "solver/check/check_parts.h"
 #include "solver/model/limits.h"
@@ -132,6 +133,15 @@ void check_nodes_are_reached(const Place& nodes, const Model& data, const Names&
   }
 }
 
+/// Checks the joint between a member's end and its node.
+void check_joint(const Place& rotation, double stiffness, const std::optional<ReactionLaw>& law) {
+  if (law) {
+    check_law_at_one_place(rotation, *law);
+  } else {
+    require_not_negative(rotation, stiffness);
+  }
+}
+
 }  // namespace
 
 /// Checks texts that results and lists repeat.
@@ -177,6 +187,12 @@ void check_number(const Place& place, const AlongMember& value, Rule rule) {
   require_positive(place / "power", value.power);
 }
 
+/// Checks a stiffness, which may be infinite: "rigid".
+void check_stiffness(const Place& place, const AlongMember& value) {
+  if (value.varies() || !(value.constant == std::numeric_limits<double>::infinity()))
+    check_number(place, value, require_positive);
+}
+
 void check_sections(const Place& model, const Model& data, Names& names) {
   const Place sections = model / "sections";
   require_count(sections, data.sections.size(), kMaxSections);
@@ -187,8 +203,8 @@ void check_sections(const Place& model, const Model& data, Names& names) {
     const Place place = sections / i;
     const Section& section = data.sections[i];
     names.sections.add(place / "id", section.id);
-    check_number(place / "EA", section.EA, require_positive);
-    check_number(place / "EI", section.EI, require_positive);
+    check_stiffness(place / "EA", section.EA);
+    check_stiffness(place / "EI", section.EI);
     if (section.GA) {
       check_number(place / "GA", *section.GA, require_positive);
     }
@@ -204,14 +220,35 @@ void check_sections(const Place& model, const Model& data, Names& names) {
   }
 }
 
+namespace {
+
+/// Whether a member has a stiffness that is not rigid, or names a section that does not exist. @pre those
+/// that are one-sided have a finite EA
+bool has_flexible_member(const Model& data, const Names& names) {
+  return std::any_of(data.members.begin(), data.members.end(), [&](const Member& member) {
+    return is_rod(member) || !names.sections.contains(member.section) ||
+           !std::isinf(data.sections[names.sections.index(member.section)].EI.constant);
+  });
+}
+
+/// Checks that the section of a one-sided member has a finite EA.
+void check_rod_section(const Place& place, const Member& rod, const Model& data, const Names& names) {
+  if (names.sections.contains(rod.section) &&
+      std::isinf(data.sections[names.sections.index(rod.section)].EA.constant)) {
+    (place / "section").report("not_supported", "a one-sided member needs a section whose EA is not rigid");
+  }
+}
+
+}  // namespace
+
 void check_members(const Place& model, const Model& data, Names& names) {
   const Place members = model / "members";
   require_count(members, data.members.size(), kMaxMembers);
   if (data.members.empty()) {
     members.report("empty", "a model needs members");
   }
-  if (!data.members.empty() && std::all_of(data.members.begin(), data.members.end(), is_rod)) {
-    members.report("empty", "a model needs a member that is not one-sided");
+  if (!data.members.empty() && !has_flexible_member(data, names)) {
+    members.report("empty", "a model needs a member whose EI is not rigid");
   }
   const double zero = zero_distance(data);
   bool all_known = true;
@@ -222,12 +259,17 @@ void check_members(const Place& model, const Model& data, Names& names) {
     const bool start_known = names.nodes.require(place / "start", member.start);
     const bool end_known = names.nodes.require(place / "end", member.end);
     names.sections.require(place / "section", member.section);
-    require_not_negative(place / "release" / "start" / "rotation", member.release_start_stiffness);
-    require_not_negative(place / "release" / "end" / "rotation", member.release_end_stiffness);
+    check_joint(place / "release" / "start" / "rotation", member.release_start_stiffness,
+                member.release_start_law);
+    check_joint(place / "release" / "end" / "rotation", member.release_end_stiffness, member.release_end_law);
     std::visit([&place](const auto& curve) { check_curve(place / "curve", curve); }, member.curve);
     if (is_rod(member)) {
       names.rods.insert(member.id);
       check_rod(place, member);
+      check_rod_section(place, member, data, names);
+    }
+    if (member.pretension) {
+      check_pretension(place / "pretension", member, data, names);
     }
     if (start_known && end_known) {
       check_member_geometry(place, member, data.nodes[names.nodes.index(member.start)],

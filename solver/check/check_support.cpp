@@ -180,25 +180,27 @@ void check_law(const Place& support, const ReactionLaw& law) {
   }
 }
 
-/// Requires the numbers of a spring's law to be constant, since a spring has one place.
-void check_constant(const Place& support, const ReactionLaw& law) {
-  const auto require_constant = [](const Place& place, const AlongMember& value) {
-    if (value.varies()) {
-      place.report("not_supported", "a spring acts at one place: " + place.name() + " must be a number");
-    }
-  };
-  const Place place = support / "law";
-  require_constant(place / "stiffness", law.stiffness);
-  require_constant(place / "capacity", law.capacity);
-  require_constant(place / "factor", law.factor);
+bool lies_on_rigid_member(const Foundation& foundation, const Model& data, const Names& names) {
+  if (!names.members.contains(foundation.member)) {
+    return false;
+  }
+  const std::string& section = data.members[names.members.index(foundation.member)].section;
+  return names.sections.contains(section) &&
+         std::isinf(data.sections[names.sections.index(section)].EI.constant);
 }
 
-void check_tangential(const Place& place, const Foundation& foundation) {
+/// Checks a foundation along the tangent or against rotation.
+void check_component(const Place& place, const Foundation& foundation) {
+  const bool turns = foundation.component == FoundationComponent::rotation;
+  const std::string kind = turns ? "a foundation against rotation" : "a foundation along the tangent";
   if (foundation.reaction != Reaction::bilateral) {
-    (place / "reaction").report("not_supported", "a foundation along the tangent must be bilateral");
+    (place / "reaction").report("not_supported", kind + " must be bilateral");
   }
   if (foundation.shear_stiffness > 0.0) {
-    (place / "shear_stiffness").report("not_supported", "a foundation along the tangent has no shear layer");
+    (place / "shear_stiffness").report("not_supported", kind + " has no shear layer");
+  }
+  if (turns && foundation.displacement) {
+    (place / "displacement").report("not_supported", kind + " does not follow a displacement of the ground");
   }
 }
 
@@ -265,6 +267,20 @@ void check_support(const Place& place, const Support& support) {
 
 }  // namespace
 
+void check_law_at_one_place(const Place& owner, const ReactionLaw& law) {
+  check_law(owner, law);
+  const auto require_constant = [](const Place& place, const AlongMember& value) {
+    if (value.varies()) {
+      place.report("not_supported",
+                   "a spring or joint acts at one place: " + place.name() + " must be a number");
+    }
+  };
+  const Place place = owner / "law";
+  require_constant(place / "stiffness", law.stiffness);
+  require_constant(place / "capacity", law.capacity);
+  require_constant(place / "factor", law.factor);
+}
+
 void check_location(const Place& place, const Location& location, const Names& names) {
   if (location.node.empty() == location.member.empty()) {
     place.report("ambiguous", "a location is either a node or a member with a fraction");
@@ -309,12 +325,14 @@ void check_springs(const Place& model, const Model& data, const Names& names) {
       require_direction(place / "direction", *spring.direction);
     }
     if (spring.law) {
-      check_law(place, *spring.law);
-      check_constant(place, *spring.law);
+      check_law_at_one_place(place, *spring.law);
     } else {
       check_stiffness(place / "stiffness", spring.stiffness, spring.reaction);
     }
     check_gap(place / "gap", spring.gap, spring.reaction);
+    if (spring.pretension) {
+      check_pretension(place / "pretension", spring, data, names);
+    }
     if (spring.displacement) {
       check_ground(place / "displacement", spring);
     }
@@ -335,8 +353,12 @@ void check_foundations(const Place& model, const Model& data, const Names& names
     } else {
       check_stiffness(place / "stiffness", foundation.stiffness, foundation.reaction);
     }
-    if (foundation.tangential) {
-      check_tangential(place, foundation);
+    if (std::isinf(foundation.stiffness) && lies_on_rigid_member(foundation, data, names)) {
+      (place / "stiffness")
+          .report("not_supported", "a rigid foundation needs a member that bends: its EI is rigid too");
+    }
+    if (foundation.component != FoundationComponent::normal) {
+      check_component(place, foundation);
     }
     if (require_not_negative(place / "shear_stiffness", foundation.shear_stiffness) &&
         has_one_sided_layer(foundation)) {

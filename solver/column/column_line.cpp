@@ -110,7 +110,8 @@ bool LineReader::is_simple() const {
   for (const ResolvedMember& member : model_.members) {
     const Section& section = model_.sections[member.section];
     if (!std::holds_alternative<LineCurve>(member.curve) || is_semi_rigid(member) || section.GA ||
-        section.EA.varies() || section.EI.varies())
+        section.EA.varies() || section.EI.varies() || std::isinf(section.EA.constant) ||
+        std::isinf(section.EI.constant))
       return false;
   }
   for (const ResolvedSpring& spring : model_.springs)
@@ -118,7 +119,7 @@ bool LineReader::is_simple() const {
         (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral))
       return false;
   for (const ResolvedFoundation& foundation : model_.foundations)
-    if (foundation.law || foundation.tangential || foundation.displacement ||
+    if (foundation.law || foundation.component != FoundationComponent::normal || foundation.displacement ||
         (foundation.stiffness + foundation.shear_stiffness > 0.0 &&
          foundation.reaction != Reaction::bilateral))
       return false;

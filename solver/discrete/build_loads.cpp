@@ -108,10 +108,14 @@ void LoadBuilder::add(const StrainAction& load) {
   const int member = load.member;
   const int p = out_.mesh.order;
   const Section& section = model_.sections[model_.members[member].section];
+  const auto force_of = [](double strain, double stiffness) {
+    return strain != 0.0 && std::isfinite(stiffness) ? strain * stiffness : 0.0;
+  };
   if (load.pattern == Pattern::proportional)
     strain_size_ +=
-        out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA.largest()) +
-        out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI.largest());
+        out_.scales.scaled_force(force_of(largest_of(load.axial, load.axial_along), section.EA.largest())) +
+        out_.scales.scaled_moment(
+            force_of(largest_of(load.curvature, load.curvature_along), section.EI.largest()));
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const CollocationRule& rule = CollocationRule::of(p);
     const ElementShape shape = shape_of_element(out_, e);

@@ -13,12 +13,14 @@
 #include "solver/discrete/build_supports.h"
 #include "solver/discrete/build_unknowns.h"
 #include "solver/discrete/mass_matrix.h"
+#include "solver/discrete/mechanism.h"
 #include "solver/discrete/stops.h"
 #include "solver/discrete/structure_laws.h"
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/mesh/dof_map.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/resolve/rods.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -31,7 +33,12 @@ void set_scales(const Scales* known, Structure& out) {
   double bending = 0.0;
   for (const auto& axis : out.axes) length = std::max(length, axis->length());
   for (const ResolvedMember& member : model.members)
-    bending = std::max(bending, model.sections[member.section].EI.largest());
+    if (const double EI = model.sections[member.section].EI.largest(); std::isfinite(EI))
+      bending = std::max(bending, EI);
+  if (model.members.empty()) length = longest_rod(model.springs);
+  if (bending == 0.0)  // nothing bends: the stiffness of rods at that length is the unit of forces
+    for (const ResolvedSpring& spring : model.springs)
+      if (spring.rod) bending = std::max(bending, spring.stiffness * std::pow(length, 3));
   out.scales.length = length;
   out.scales.force = bending / (length * length);
   if (known != nullptr) out.scales = *known;
@@ -63,16 +70,19 @@ void set_metric(Structure& out) {
 /// Sets the loads at which members buckle, see Structure::euler_loads and Structure::foundation_loads.
 void set_critical_loads(Structure& out) {
   const ResolvedModel& model = *out.model;
+  // a rigid member counts with the stiffest of the others
+  const double stiffest = out.scales.force * out.scales.length * out.scales.length;
+  const auto finite = [stiffest](double EI) { return std::isfinite(EI) ? EI : stiffest; };
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const double length = out.axes[m]->length();
     out.euler_loads.push_back(std::numbers::pi * std::numbers::pi *
-                              model.section_of(model.members[m]).EI.least() /
+                              finite(model.section_of(model.members[m]).EI.least()) /
                               (length * length * out.scales.force));
   }
   out.foundation_loads.assign(model.members.size(), 0.0);
   for (const ResolvedFoundation& foundation : model.foundations) {
     const auto m = static_cast<std::size_t>(foundation.member);
-    const double EI = model.section_of(model.members[m]).EI.largest();
+    const double EI = finite(model.section_of(model.members[m]).EI.largest());
     out.foundation_loads[m] +=
         2.0 * std::sqrt(stiffness_on(out, foundation, foundation.member) * EI) + foundation.shear_stiffness;
   }
@@ -106,6 +116,7 @@ ModelTraits traits_of(const Structure& structure) {
       out.has_curves || std::ranges::any_of(structure.foundation_laws, &FoundationLaw::follows_surface);
   out.symmetric = structure.follower_ends.empty() && structure.follower_forces.empty();
   out.has_mass = has_mass(*structure.model);
+  out.loose = structure.geometry == Geometry::nonlinear && is_loose(*structure.model);
   return out;
 }
 

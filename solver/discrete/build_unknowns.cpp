@@ -24,6 +24,19 @@ std::array<int, 3> end_of(int node, int released) {
   return out;
 }
 
+/// Adds the joint at a released end of a member, unless the end is a hinge.
+/// @param end unknown of the end's own rotation
+void add_joint(int index, bool at_end, int end, Structure& out) {
+  const ResolvedMember& member = out.model->members[static_cast<std::size_t>(index)];
+  if (at_end ? is_hinged_at_end(member) : is_hinged_at_start(member)) return;
+  Spring spring;  // without a direction: rotational
+  spring.stiffness = at_end ? member.release_end_stiffness : member.release_start_stiffness;
+  spring.law = at_end ? member.release_end_law : member.release_start_law;
+  const SpringLaw law = law_of(spring, out.scales);
+  if (law.curve) out.curves.push_back(law.curve);
+  out.joints.push_back({DofMap::rotation(at_end ? member.end : member.start), end, law.law, index, at_end});
+}
+
 }  // namespace
 
 void number_unknowns(std::vector<SpringLaw>& equations, Structure& out) {
@@ -33,16 +46,16 @@ void number_unknowns(std::vector<SpringLaw>& equations, Structure& out) {
   out.dofs.reserve(mesh.elements.size());
   int next = DofMap::count(out.nodes);
   std::vector<std::array<int, 2>> released(model.members.size(), {-1, -1});
-  const auto release = [&](bool is_released, int node, double stiffness, int& end) {
-    if (!is_released) return;
-    end = next++;
-    if (stiffness > 0.0)
-      out.joints.push_back({DofMap::rotation(node), end, out.scales.scaled_rotational(stiffness)});
-  };
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const ResolvedMember& member = model.members[m];
-    release(member.release_start_rotation, member.start, member.release_start_stiffness, released[m][0]);
-    release(member.release_end_rotation, member.end, member.release_end_stiffness, released[m][1]);
+    if (member.release_start_rotation) {
+      released[m][0] = next++;
+      add_joint(static_cast<int>(m), false, released[m][0], out);
+    }
+    if (member.release_end_rotation) {
+      released[m][1] = next++;
+      add_joint(static_cast<int>(m), true, released[m][1], out);
+    }
   }
   out.releases = next - DofMap::count(out.nodes);
   out.stops = number_stops(next, equations);

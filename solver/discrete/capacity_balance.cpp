@@ -109,7 +109,9 @@ void CapacityBalance::add(const ResolvedFoundation& foundation) {
   const int member = foundation.member;
   const AxisCurve& axis = *parts.axes()[static_cast<std::size_t>(member)];
   Support out{foundation.id, foundation.reaction != Reaction::bilateral, {}, nullptr, {}, {}};
-  out.row = [this, member, law = parts.law(foundation)](double fraction) {
+  const bool turns = foundation.component == FoundationComponent::rotation;
+  out.row = [this, turns, member, law = parts.law(foundation)](double fraction) {
+    if (turns) return on_motions(motions_.parts().rotation(member));
     const AxisPoint at = motions_.parts().place(member, fraction);
     return on_motions(motions_.parts().displacement(
         member, {at.x, at.y}, law.initial_direction({{at.x, at.y}, at.angle, fraction})));
@@ -122,7 +124,8 @@ void CapacityBalance::add(const ResolvedFoundation& foundation) {
     const AlongMember capacity = numbers_of(*foundation.law).capacity;
     for (const auto& point : capacity.points)
       if (point.first > from && point.first < to) out.places.push_back(point.first);
-    out.capacity = [capacity, length = axis.length()](double fraction) {
+    const double unit = turns ? 1.0 / parts.length() : 1.0;
+    out.capacity = [capacity, length = unit * axis.length()](double fraction) {
       return length * capacity.at(fraction);
     };
     std::ranges::sort(out.places);
@@ -270,7 +273,7 @@ bool CapacityEnds::is_beyond(double factor) const {
 }
 
 std::shared_ptr<const CapacityEnds> capacity_ends(const ResolvedModel& model) {
-  if (!has_supports_with_capacity(model) || has_falling_laws(model)) return nullptr;
+  if (!has_supports_with_capacity(model) || has_falling_laws(model) || has_joint_laws(model)) return nullptr;
   auto out =
       std::make_shared<CapacityEnds>(CapacityEnds{FreeMotions(model, HeldBy::without_capacity), {}, {}, {}});
   const CapacityBalance balance(out->motions);

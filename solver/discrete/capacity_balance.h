@@ -98,8 +98,8 @@ struct CapacityEnds {
   [[nodiscard]] bool is_beyond(double factor) const;
 };
 
-/// @brief Limit loads of a model; null: its supports hold any load factor, none has a capacity, or the
-/// reaction of some support falls beyond a peak (has_falling_laws()).
+/// @brief Limit loads of a model; null: its supports hold any load factor, none has a capacity, the reaction
+/// of some support falls beyond a peak (has_falling_laws()), or a joint has a law (has_joint_laws()).
 /// @param model kept by reference
 /// @pre the model passed check()
 [[nodiscard]] std::shared_ptr<const CapacityEnds> capacity_ends(const ResolvedModel& model);

@@ -17,6 +17,11 @@ ElementReader::ElementReader(const Structure& structure, const Eigen::VectorXd& 
 ElementReader::ElementReader(const Structure& structure, const Eigen::VectorXd& y, int element,
                              const FoundationLaw& foundation)
     : ElementReader(structure, y, element) {
+  if (foundation.rotational) {
+    ua_ = {ua_[2], 0.0, ua_[2]};
+    dv_[0] = dv_[2];
+    dv_[1] = {};
+  }
   const MeshElement& cell = structure.mesh.elements[static_cast<std::size_t>(element)];
   foundation.ground_under(cell.from, cell.to)
       .subtract_from(y.data(), ua_, std::span(dv_[0]).first(p_), std::span(dv_[1]).first(p_));

@@ -15,7 +15,8 @@ namespace snapthrough {
 class ElementReader {
  public:
   ElementReader(const Structure& structure, const Eigen::VectorXd& y, int element);
-  /// Reads displacements relative to the ground under a foundation.
+  /// Reads displacements relative to the ground under a foundation. Under one that resists rotation, the
+  /// rotation is read as the displacement along x, and that along y is zero.
   ElementReader(const Structure& structure, const Eigen::VectorXd& y, int element,
                 const FoundationLaw& foundation);
 

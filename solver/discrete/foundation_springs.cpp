@@ -17,7 +17,7 @@ SupportSpring spring_at(const Structure& structure, const FoundationLaw& foundat
   std::array<double, 2> u{0.0, 0.0};
   if (reader != nullptr && foundation.surface) u = {reader->displacement(xi)[0], reader->displacement(xi)[1]};
   const auto [depth, d, bend, bend_rate, size] = foundation.penetration(at, u);
-  SupportSpring out = support_at(structure, element, xi, {d[0], d[1], 0.0});
+  SupportSpring out = support_at(structure, element, xi, foundation.row(d));
   const MeshElement& cell = structure.mesh.elements[static_cast<std::size_t>(element)];
   out.ground = foundation.ground_under(cell.from, cell.to).at(xi);
   out.law = foundation.at(at.fraction);

@@ -90,6 +90,21 @@ bool is_plainly_held(const ResolvedModel& model) {
          is_connected(model) && firmness(model, length) >= PlainlyHeldLimits::restraint;
 }
 
+bool is_loose(const ResolvedModel& model) {
+  const auto pulls = [](const ResolvedSpring& spring) {
+    return spring.rod && spring.reaction == Reaction::tension_only;
+  };
+  const auto is_slack = [&](const ResolvedSpring& spring) {
+    return pulls(spring) && spring.without_force < 0.0;
+  };
+  if (std::ranges::none_of(model.springs, pulls)) return false;
+  const RigidMechanism mechanism(model, HeldBy::all_as_bilateral);
+  if (mechanism.unknown() || mechanism.motions().empty()) return false;
+  return mechanism.motions().size() == MechanismLimits::motions ||
+         std::ranges::any_of(model.springs, is_slack) || mechanism.driven_by(Pattern::proportional) ||
+         mechanism.driven_by(Pattern::constant);
+}
+
 bool can_move(const ResolvedModel& model) {
   return !RigidMechanism(model, HeldBy::all_as_bilateral).motions().empty();
 }

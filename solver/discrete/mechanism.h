@@ -17,6 +17,11 @@ namespace snapthrough {
 /// @pre the model passed all other checks
 [[nodiscard]] std::vector<Finding> find_mechanism(const ResolvedModel& model);
 
+/// @brief Whether a structure that can move without strain has members that only pull, which may hold it when
+/// they are tight: the loads drive such a motion, or these members are slack as they are drawn.
+/// @pre the model passed all other checks
+[[nodiscard]] bool is_loose(const ResolvedModel& model);
+
 /// @brief Whether the unloaded structure, with one-sided supports as bilateral, can move without strain.
 /// @pre the model passed all other checks
 [[nodiscard]] bool can_move(const ResolvedModel& model);

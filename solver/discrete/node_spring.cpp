@@ -26,7 +26,8 @@ SpringMotion NodeSpring::motion(const Eigen::Ref<const VectorXd>& y, bool small_
   const auto [e, n, l] = chord(r);
   // the shortening L - l as (L^2 - l^2) / (L + l), with the initial length L and the present length l, has
   // all digits of small displacements
-  out.w = (2.0 * length * out.w - sense * r.head<2>().squaredNorm()) / (length + l);
+  const double along = direction().dot(r);
+  out.w = (2.0 * length * along - sense * r.head<2>().squaredNorm()) / (length + l) + pretensioned(y);
   out.gradient = sense * e;
   out.curvature = -sense / l * n * n.transpose();
   return out;
@@ -57,6 +58,7 @@ NodeSpring node_spring(const SpringLaw& law, int node, int to) {
   out.law = law.law;
   out.force_unknown = law.force_unknown;
   out.give = law.give;
+  out.without_force = law.without_force;
   return out;
 }
 

@@ -28,7 +28,8 @@ struct SpringMotion {
 ///   row
 ///                                                   from `node`: its shortening or lengthening
 ///
-/// A rod's w is row . r too where displacements count as small.
+/// A rod's w is row . r too where displacements count as small. With a pretension, w is less by sense times
+/// the unknown `without_force`, which is prescribed.
 ///
 /// The force p of a stop is an unknown, because stiffness times penetration would be the rounding of the
 /// displacements. A stop of the compliance c and the gap g acts where  w - g + p / k - c p > 0;  there
@@ -46,6 +47,7 @@ struct NodeSpring {
   int spring = -1;         ///< index among the springs
   int force_unknown = -1;  ///< unknown force of a stop; -1: the law gives the force
   double give = 0.0;       ///< compliance of a stop
+  int without_force = -1;  ///< unknown of a pretension; -1: none
 
   [[nodiscard]] bool is_rod() const { return length > 0.0; }
   [[nodiscard]] bool is_stop() const { return force_unknown >= 0; }
@@ -61,9 +63,13 @@ struct NodeSpring {
     if (to >= 0) DofMap::at(forces, to) -= force;
   }
   [[nodiscard]] Eigen::Vector3d direction() const { return {row[0], row[1], row[2]}; }
+  /// What a pretension adds to w, at the unknowns y.
+  [[nodiscard]] double pretensioned(const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return without_force >= 0 ? -sense * y[without_force] : 0.0;
+  }
   /// Displacement w at the unknowns y, for small displacements, without the force of a stop.
   [[nodiscard]] double moved(const Eigen::Ref<const Eigen::VectorXd>& y) const {
-    return direction().dot(relative(y));
+    return direction().dot(relative(y)) + pretensioned(y);
   }
   /// Displacement w at the unknowns y, for small displacements.
   [[nodiscard]] double linear(const Eigen::Ref<const Eigen::VectorXd>& y) const {

@@ -39,7 +39,8 @@ class Holding {
   template <class Support>
   [[nodiscard]] bool is_there(const Support& support) const {
     return initial_stiffness(support) > 0.0 &&
-           (held_by_ == HeldBy::all_as_bilateral || support.reaction == Reaction::bilateral);
+           (held_by_ == HeldBy::all_as_bilateral || support.reaction == Reaction::bilateral ||
+            (held_by_ == HeldBy::bilateral && is_tight(support)));
   }
   /// Whether a support does not hold its place, because it carries no more than its capacity.
   template <class Support>
@@ -99,11 +100,16 @@ void Holding::add(const ResolvedSpring& spring) {
   }
 }
 
-/// Adds the constraints of a foundation at points of its range; two points suffice on a straight axis. A
+/// Adds the constraints of a foundation at points of its range; two points suffice on a straight axis. One
+/// against rotation holds the member's rotation. A
 /// surface constrains motions along its normals as seen from the initial axis. The
 /// shear layer constrains the derivative of the displacement n.u along the axis: n'.u and the rotation of n.
 void Holding::add(const ResolvedFoundation& foundation) {
   const int member = foundation.member;
+  if (foundation.component == FoundationComponent::rotation) {
+    if (!gives_way(foundation)) hold(parts_.rotation(member), parts_.radius(member));
+    return;
+  }
   const bool straight = parts_.axes()[static_cast<std::size_t>(member)]->straight();
   const bool is_uniform = straight && !foundation.outline;
   const Quadrature points = gauss_legendre(is_uniform ? 2 : MechanismLimits::places_on_curve);

@@ -25,7 +25,7 @@ struct MechanismLimits {
 /// Which supports hold a structure of rigid parts.
 enum class HeldBy {
   all_as_bilateral,  ///< every support, one-sided ones as bilateral
-  bilateral,         ///< bilateral supports only
+  bilateral,         ///< bilateral supports, and springs that a pretension presses
   without_capacity   ///< bilateral supports whose law has no capacity
 };
 

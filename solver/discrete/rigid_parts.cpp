@@ -1,6 +1,7 @@
 #include "solver/discrete/rigid_parts.h"
 #include "solver/geometry/axes.h"
 #include "solver/mesh/dof_map.h"
+#include "solver/resolve/rods.h"
 #include "solver/support/law.h"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ void append(RigidParts::Row& row, const RigidParts::Row& other, double factor) {
 
 RigidParts::RigidParts(const ResolvedModel& model) : model_(model), axes_(make_axes(model)) {
   for (const auto& axis : axes_) length_ = std::max(length_, axis->length());
+  if (axes_.empty()) length_ = longest_rod(model.springs);
   const Node& origin = model.nodes.front();
   for (const Node& node : model.nodes)
     nodes_.push_back({(node.x - origin.x) / length_, (node.y - origin.y) / length_});

@@ -20,15 +20,6 @@ std::vector<std::string> without_stiffness(const ResolvedModel& model) {
   return out;
 }
 
-void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
-                       Eigen::Ref<Eigen::VectorXd> f) {
-  for (const JointSpring& joint : structure.joints) {
-    const double moment = joint.stiffness * (y[joint.node_rotation] - y[joint.end_rotation]);
-    f[joint.node_rotation] += moment;
-    f[joint.end_rotation] -= moment;
-  }
-}
-
 FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {
   FoundationLaw law = foundation;
   if (law.law.one_sided && law.shear == 0.0) {
@@ -156,8 +147,9 @@ SpringReading reading_of(const Structure& structure, std::size_t index, const Ei
       out.row.entries.emplace_back(at, -weight);
   if (const int ground = structure.spring_laws[index].ground; ground >= 0)
     for (int c = 0; c < 3; ++c) out.row.entries.emplace_back(ground + c, -row[c]);
-  if (!spring.rod) out.displacement = out.row.dot(y);
   const SpringLaw& law = structure.spring_laws[index];
+  if (law.without_force >= 0) out.row.entries.emplace_back(law.without_force, -law.sense);
+  if (!spring.rod) out.displacement = out.row.dot(y);
   out.depth = out.displacement - law.law.gap;
   out.force = law.law.reaction(out.displacement);
   if (law.force_unknown < 0) return out;
@@ -167,6 +159,18 @@ SpringReading reading_of(const Structure& structure, std::size_t index, const Ei
   if (out.depth > 0.0) out.displacement = law.law.gap + law.give * force;
   return out;
 }
+
+namespace {
+
+/// Scaled compliance of a section. That of a rigid one leaves strains that vanish beside the rounding of
+/// others; section forces keep all digits, because the elements use its square root (element/element_work.h).
+/// @param unit scaled stiffness one
+double compliance_of(double unit, double stiffness) {
+  constexpr double rigid = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
+  return std::isfinite(stiffness) ? unit / stiffness : rigid;
+}
+
+}  // namespace
 
 ElementShape shape_of_element(const Structure& structure, int element) {
   const ResolvedModel& model = *structure.model;
@@ -191,9 +195,9 @@ ElementShape shape_of_element(const Structure& structure, int element) {
     shape.angle.push_back(point.angle);
     shape.t.push_back({point.stretch * std::cos(point.angle), point.stretch * std::sin(point.angle)});
     for (int c = 0; c < 2; ++c) chord[c] += rule.weight(q) * shape.t[q][c];
-    shape.axial_compliance.push_back(point.stretch * F / section.EA.at(fraction));
+    shape.axial_compliance.push_back(compliance_of(point.stretch * F, section.EA.at(fraction)));
     shape.shear_compliance.push_back(section.GA ? point.stretch * F / section.GA->at(fraction) : 0.0);
-    shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI.at(fraction));
+    shape.bending_compliance.push_back(compliance_of(point.stretch * F * L * L, section.EI.at(fraction)));
   }
   // close the chord exactly, so that rigid motions are free of strain
   const StressFreePoint from = axis.at(length * e.from);

@@ -38,7 +38,19 @@ struct NodeSupport {
 struct JointSpring {
   int node_rotation = 0;  ///< unknown of the node
   int end_rotation = 0;   ///< unknown of the member end
-  double stiffness = 0.0;
+  Law law;                ///< moment by the rotation of the node relative to the end; bilateral
+  int member = 0;
+  bool at_end = false;  ///< false: the joint is at the start of its member
+
+  /// Rotation of the node relative to the member end in a vector of unknowns.
+  [[nodiscard]] double rotation(const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return y[node_rotation] - y[end_rotation];
+  }
+  /// Adds a moment on the node, and its opposite on the member end, to the rows of the unknowns.
+  void add(double moment, Eigen::Ref<Eigen::VectorXd> rows) const {
+    rows[node_rotation] += moment;
+    rows[end_rotation] -= moment;
+  }
 };
 
 /// @brief One-sided supports that touch without pressure, and which of them the critical motion moves into.
@@ -132,7 +144,7 @@ struct Structure {
   std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member by its smallest EI
   std::vector<double> foundation_loads;  ///< increase by foundations, largest EI: 2 sqrt(K EI) + G
   TouchingSupports touching;             ///< empty unless touching supports were searched for
-  /// Curves to which the laws of the elements and nodes refer.
+  /// Curves to which the laws of the elements, nodes and joints refer.
   std::vector<std::shared_ptr<const ReactionCurve>> curves;
   ModelTraits traits;
   bool has_constant = false;  ///< constant actions cause displacements
@@ -141,16 +153,13 @@ struct Structure {
   Eigen::MatrixXd free_motions;
 };
 
-/// Prescribed displacements of the ground under springs and foundations, in the order of their nodes.
+/// Prescribed displacements of the ground under springs and foundations, in the order of their nodes. That of
+/// a spring with a pretension is along x, and is what displacement_without_force() returns.
 [[nodiscard]] std::vector<PrescribedDisplacement> ground_displacements(const ResolvedModel& model);
 
 /// @brief Point forces of a model that turn with their places; none in linear geometry.
 /// @pre the unknowns and scales of the structure are set
 [[nodiscard]] std::vector<FollowerForce> follower_forces_of(const Structure& structure);
-
-/// Adds the moments of semi-rigid joints at the unknowns y to the rows of a residual.
-void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
-                       Eigen::Ref<Eigen::VectorXd> f);
 
 /// Law of a foundation on an element, with its stiffness bounded by Structure::stiffest; that of a rigid one
 /// is Structure::stiffest_rigid. A shear layer has the stiffness of the model on all elements.

@@ -40,8 +40,9 @@ StiffnessAtStop stiffness_at_stop(const Structure& structure, const ResolvedSpri
     const double axial = section.EA.at(fraction) / (scales.force * length);
     const double angle = axis.angle_at(fraction * axis.length());
     const double along = law.row[0] * std::cos(angle) + law.row[1] * std::sin(angle);
-    sum.bending += spring.direction ? 12.0 * bending / (length * length) : 4.0 * bending;
-    if (spring.direction) sum.axial += along * along * axial;
+    if (std::isfinite(bending))
+      sum.bending += spring.direction ? 12.0 * bending / (length * length) : 4.0 * bending;
+    if (spring.direction && std::isfinite(axial)) sum.axial += along * along * axial;
   }
   if (!(sum.bending > 0.0)) sum.bending = 1.0;  // a node that rods alone reach
   return sum;
@@ -69,6 +70,7 @@ void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<Reso
   for (const ResolvedSpring& spring : springs) {
     SpringLaw& law = spring_laws.emplace_back(law_of(spring, structure.scales));
     law.ground = ground_under(spring);
+    if (spring.pretension) law.without_force = DofMap::first(ground++);
     if (!std::isfinite(law.law.stiffness)) set_stop(structure, spring, law);
   }
   for (const ResolvedFoundation& foundation : foundations) {
@@ -82,7 +84,10 @@ void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<Reso
 std::vector<PrescribedDisplacement> ground_displacements(const ResolvedModel& model) {
   std::vector<PrescribedDisplacement> out;
   for (const ResolvedSpring& spring : model.springs)
-    if (spring.displacement) out.push_back(*spring.displacement);
+    if (spring.displacement)
+      out.push_back(*spring.displacement);
+    else if (spring.pretension)
+      out.push_back({spring.without_force, 0.0, 0.0, Pattern::constant});
   for (const ResolvedFoundation& foundation : model.foundations)
     if (const auto& moved = foundation.displacement)
       out.push_back({largest_size(moved->x), largest_size(moved->y), 0.0, moved->pattern});

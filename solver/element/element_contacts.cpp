@@ -28,6 +28,11 @@ DisplacementOnGround ElementContacts::displacement(const FoundationContact& cont
   DisplacementOnGround u;
   u.start = {y[dofs.a[0]], y[dofs.a[1]]};
   u.order = order_;
+  if (contact.is_rotational()) {
+    u.start = {y[dofs.a[2]], 0.0};
+    for (int q = 0; q < order_; ++q) u.x[q] = element.length * y[dofs.v + 2 * order_ + q];
+    return u;
+  }
   for (int q = 0; q < order_; ++q) {
     u.x[q] = element.length * y[dofs.v + q];
     u.y[q] = element.length * y[dofs.v + order_ + q];

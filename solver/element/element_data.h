@@ -68,8 +68,9 @@ struct ElementData {
   /// Functional of the displacement along the tangent (-d_y, d_x) of the surface under a functional's
   /// direction d, without law.
   [[nodiscard]] static Functional along_surface(const Functional& f);
-  /// Functional of the penetration along d, with zero stiffness and gap. @param integrals the A_r there
-  [[nodiscard]] static Functional penetration(std::array<double, 2> d, double h,
+  /// Functional of a row of weights of (x, y, rotation), with zero stiffness and gap.
+  /// @param integrals the A_r there
+  [[nodiscard]] static Functional penetration(const std::array<double, 3>& row, double h,
                                               std::span<const double> integrals);
   /// Functional of the derivative of the penetration by xi, with the stiffness of the shear layer.
   [[nodiscard]] Functional slope_functional(const FoundationContact& contact, double h, double xi) const;
@@ -129,6 +130,11 @@ template <int P>
 auto ElementData<P>::displacement_of(const FoundationContact& contact, const Shape& shape,
                                      const ElementDofs& at, const double* y) const -> ContactDisplacement {
   ContactDisplacement u{{y[at.a[0]], y[at.a[1]]}, {}, {}};
+  if (contact.is_rotational()) {
+    u.start = {y[at.a[2]], 0.0};
+    for (int q = 0; q < P; ++q) u.dx[q] = shape.h * y[at.v + 2 * P + q];
+    return u;
+  }
   for (int q = 0; q < P; ++q) {
     u.dx[q] = shape.h * y[at.v + q];
     u.dy[q] = shape.h * y[at.v + P + q];
@@ -162,7 +168,7 @@ auto ElementData<P>::functional_at(const FoundationContact& contact, double h, d
   Gauss integrals;
   rule->integrals_at(xi, integrals);
   const auto along = [&](std::array<double, 2> d) {
-    Functional f = penetration(d, h, integrals);
+    Functional f = penetration(contact.row(d), h, integrals);
     f.law = contact.law_at(xi);
     f.ground = contact.ground().at(xi);
     return f;
@@ -192,15 +198,12 @@ auto ElementData<P>::along_surface(const Functional& f) -> Functional {
 }
 
 template <int P>
-auto ElementData<P>::penetration(std::array<double, 2> d, double h, std::span<const double> integrals)
-    -> Functional {
+auto ElementData<P>::penetration(const std::array<double, 3>& row, double h,
+                                 std::span<const double> integrals) -> Functional {
   Functional f;
-  f.a = {d[0], d[1], 0.0};
-  for (int q = 0; q < P; ++q) {
-    f.v[0][q] = d[0] * h * integrals[q];
-    f.v[1][q] = d[1] * h * integrals[q];
-    f.v[2][q] = 0.0;
-  }
+  f.a = row;
+  for (int c = 0; c < 3; ++c)
+    for (int q = 0; q < P; ++q) f.v[c][q] = row[c] * h * integrals[q];
   return f;
 }
 
@@ -213,7 +216,7 @@ auto ElementData<P>::slope_functional(const FoundationContact& contact, double h
   Gauss values;
   rule->integrals_at(xi, integrals);
   rule->values_at(xi, values);
-  Functional f = penetration(rate, h, integrals);
+  Functional f = penetration({rate[0], rate[1], 0.0}, h, integrals);
   for (int c = 0; c < 2; ++c)
     for (int q = 0; q < P; ++q) f.v[c][q] += h * values[q] * d[c];
   f.law.stiffness = contact.shear() / h;
@@ -285,7 +288,7 @@ void ElementSetOf<P>::add_foundation(int element, FoundationContact contact, Tou
     const auto at = contact.at_point(i);
     const double xi =
         contact.range()[0] + (contact.range()[1] - contact.range()[0]) * data_.contact_quadrature.points[i];
-    whole.push_back(data_.penetration({at[0], at[1]}, data_.shapes[element].h, at.subspan(2)));
+    whole.push_back(data_.penetration(contact.row({at[0], at[1]}), data_.shapes[element].h, at.subspan(2)));
     whole.back().law = contact.law_at(xi);
     whole.back().ground = contact.ground().at(xi);
   }

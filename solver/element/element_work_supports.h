@@ -273,7 +273,7 @@ void ElementWorkOf<P>::collect_masses(int element) {
   for (int i = masses.first[element]; i < masses.first[element + 1]; ++i) {
     const MassPlace& place = masses.places[i];
     const auto integrals = std::span(place.integrals).first(P);
-    for (const std::array<double, 2> along : {std::array{1.0, 0.0}, std::array{0.0, 1.0}}) {
+    for (const std::array<double, 3> along : {std::array{1.0, 0.0, 0.0}, std::array{0.0, 1.0, 0.0}}) {
       acting_.push_back(data_.penetration(along, h, integrals));
       acting_.back().tangent = -regime_.shift * place.mass;
     }

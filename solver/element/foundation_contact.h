@@ -59,6 +59,12 @@ class FoundationContact {
   /// Whether the direction of the reaction turns as the axis moves.
   [[nodiscard]] bool follows_surface() const { return foundation_law_.follows_surface(); }
   [[nodiscard]] int foundation() const { return foundation_; }
+  /// Whether the rotation stands for the displacement along x (FoundationLaw::rotational).
+  [[nodiscard]] bool is_rotational() const { return foundation_law_.rotational; }
+  /// Weights of (x, y, rotation) in the penetration. @param d direction into the medium
+  [[nodiscard]] std::array<double, 3> row(const std::array<double, 2>& d) const {
+    return foundation_law_.row(d);
+  }
   /// Stiffness G of the shear layer, and modulus K.
   [[nodiscard]] double shear() const { return foundation_law_.shear; }
   /// Whether the ground with the shear layer continues beyond the foundation's range.

@@ -17,7 +17,8 @@ using Eigen::MatrixXd;
 /// Imaginary part of s over its magnitude below which a vibration counts as not oscillating.
 constexpr double kOscillates = 1e-6;
 
-/// Y^T K X: section forces of the motions times their strains, and moments of joints times their rotations.
+/// Y^T K X: section forces of the motions times their strains, and moments of joints times their rotations. A
+/// joint with a law has its slope at the origin, so that damping never excites.
 MatrixXd elastic_work(const Structure& structure, const MatrixXd& Y, const MatrixXd& X) {
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const int p = rule.order();
@@ -34,7 +35,7 @@ MatrixXd elastic_work(const Structure& structure, const MatrixXd& Y, const Matri
     }
   }
   for (const JointSpring& joint : structure.joints)
-    out += joint.stiffness * (Y.row(joint.node_rotation) - Y.row(joint.end_rotation)).transpose() *
+    out += joint.law.stiffness * (Y.row(joint.node_rotation) - Y.row(joint.end_rotation)).transpose() *
            (X.row(joint.node_rotation) - X.row(joint.end_rotation));
   return out;
 }

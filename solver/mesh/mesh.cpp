@@ -124,7 +124,11 @@ class MeshChoice {
         n = std::max(n, finest_[1] * coarse);
         continue;
       }
-      const double layers = length / (rule_.decay_lengths * std::pow(4.0 * least_EI / stiffness, 0.25));
+      // bending decays along a tensioned member as it does where the rotation is resisted
+      const double decay = foundation->component == FoundationComponent::rotation
+                               ? std::sqrt(least_EI / stiffness)
+                               : std::pow(4.0 * least_EI / stiffness, 0.25);
+      const double layers = length / (rule_.decay_lengths * decay);
       const bool is_bounded = is_one_sided(*foundation) && !foundation->direction && !foundation->law;
       n = std::max(n, is_bounded ? std::min(layers, finest_[0] * coarse) : layers);
     }

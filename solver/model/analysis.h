@@ -119,7 +119,8 @@ struct OutputOptions {
   std::optional<int> path_points;
   bool extremes = false;  ///< reports extreme section forces and displacements of each member
   bool modes = true;      ///< reports modes with the states of critical points
-  int frequencies = 0;    ///< number of natural frequencies at the points of a path and of static states
+  std::vector<Location> stiffness_at = {};  ///< places whose tangent stiffness the states report
+  int frequencies = 0;  ///< number of natural frequencies at the points of a path and of static states
 };
 
 /// Number of the model with respect to which critical loads are differentiated.

@@ -91,49 +91,6 @@ struct PointsCurve {
 };
 using Curve = std::variant<LineCurve, ArcCurve, ParabolaCurve, SineCurve, PointsCurve>;
 
-struct Member {
-  std::string id;
-  std::string start;    ///< node id
-  std::string end;      ///< node id
-  std::string section;  ///< section id
-  Curve curve;
-  bool release_start_rotation = false;
-  bool release_end_rotation = false;
-  /// Moment per radian of relative rotation of a released end and its node, >= 0; 0: hinge.
-  double release_start_stiffness = 0.0;
-  double release_end_stiffness = 0.0;
-  /// One-sided: a rod, straight and hinged at both ends, whose axial force is a compression or a tension
-  /// only.
-  Reaction reaction = Reaction::bilateral;
-  bool operator==(const Member&) const = default;
-};
-[[nodiscard]] inline bool is_rod(const Member& member) { return member.reaction != Reaction::bilateral; }
-/// Whether the start of a member turns without resistance of its node.
-[[nodiscard]] inline bool is_hinged_at_start(const Member& member) {
-  return is_rod(member) || (member.release_start_rotation && member.release_start_stiffness == 0.0);
-}
-[[nodiscard]] inline bool is_hinged_at_end(const Member& member) {
-  return is_rod(member) || (member.release_end_rotation && member.release_end_stiffness == 0.0);
-}
-
-struct PrescribedDisplacement {
-  double x = 0.0;
-  double y = 0.0;
-  double rotation = 0.0;
-  Pattern pattern = Pattern::proportional;
-  bool operator==(const PrescribedDisplacement&) const = default;
-};
-
-struct Support {
-  std::string node;
-  bool x = false;
-  bool y = false;
-  bool rotation = false;
-  double angle_degrees = 0.0;  ///< turns the support's x and y axes
-  std::optional<PrescribedDisplacement> displacement;
-  bool operator==(const Support&) const = default;
-};
-
 /// @brief Reaction p of an elastic support as a function of its penetration w >= 0; p(-w) = -p(w) for
 /// bilateral supports. Force for springs, force per undeformed length for foundations.
 ///
@@ -160,6 +117,64 @@ struct ReactionLaw {
   bool operator==(const ReactionLaw&) const = default;
 };
 
+/// @brief Force that a member, or a spring between two nodes, has on the undeformed structure, or its length
+/// without force; exactly one of the two is given.
+struct Pretension {
+  std::optional<double> force = {};              ///< tension positive
+  std::optional<double> unstressed_length = {};  ///< > 0
+  bool operator==(const Pretension&) const = default;
+};
+
+struct Member {
+  std::string id;
+  std::string start;    ///< node id
+  std::string end;      ///< node id
+  std::string section;  ///< section id
+  Curve curve;
+  bool release_start_rotation = false;
+  bool release_end_rotation = false;
+  /// Moment per radian of relative rotation of a released end and its node, >= 0; 0: hinge.
+  double release_start_stiffness = 0.0;
+  double release_end_stiffness = 0.0;
+  /// Moment as a function of the relative rotation of a released end and its node, in place of its stiffness;
+  /// the law's numbers do not vary.
+  std::optional<ReactionLaw> release_start_law = std::nullopt;
+  std::optional<ReactionLaw> release_end_law = std::nullopt;
+  /// One-sided: a rod, straight and hinged at both ends, whose axial force is a compression or a tension
+  /// only.
+  Reaction reaction = Reaction::bilateral;
+  std::optional<Pretension> pretension = std::nullopt;
+  bool operator==(const Member&) const = default;
+};
+[[nodiscard]] inline bool is_rod(const Member& member) { return member.reaction != Reaction::bilateral; }
+/// Whether the start of a member turns without resistance of its node.
+[[nodiscard]] inline bool is_hinged_at_start(const Member& member) {
+  return is_rod(member) || (member.release_start_rotation && member.release_start_stiffness == 0.0 &&
+                            !member.release_start_law);
+}
+[[nodiscard]] inline bool is_hinged_at_end(const Member& member) {
+  return is_rod(member) ||
+         (member.release_end_rotation && member.release_end_stiffness == 0.0 && !member.release_end_law);
+}
+
+struct PrescribedDisplacement {
+  double x = 0.0;
+  double y = 0.0;
+  double rotation = 0.0;
+  Pattern pattern = Pattern::proportional;
+  bool operator==(const PrescribedDisplacement&) const = default;
+};
+
+struct Support {
+  std::string node;
+  bool x = false;
+  bool y = false;
+  bool rotation = false;
+  double angle_degrees = 0.0;  ///< turns the support's x and y axes
+  std::optional<PrescribedDisplacement> displacement;
+  bool operator==(const Support&) const = default;
+};
+
 /// Discrete spring to ground, or between two nodes. `direction` points into the medium, or into what `to`
 /// belongs to; empty: rotational spring.
 struct Spring {
@@ -178,6 +193,7 @@ struct Spring {
   /// Index of the member that the spring stands for: see with_rods_as_springs(). `direction` is then the
   /// vector from `at` to `to`, and turns with both.
   std::optional<std::size_t> rod = std::nullopt;
+  std::optional<Pretension> pretension = std::nullopt;  ///< only with `to`, along the line between the nodes
   bool operator==(const Spring&) const = default;
 };
 
@@ -219,8 +235,13 @@ struct GroundDisplacement {
 /// End of the ground beside a foundation: it ends free, or it goes on without end.
 enum class GroundEnd { free, endless };
 
+/// What a foundation resists: the displacement along the member's initial normal, that along its initial
+/// tangent, or the rotation of its sections.
+enum class FoundationComponent { normal, tangent, rotation };
+
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
-/// (towards `side`) or along the fixed `direction` (pointing into the medium).
+/// (towards `side`) or along the fixed `direction` (pointing into the medium), or what `component` says.
+/// Against rotation, r is a moment per length and K a moment per length and radian.
 struct Foundation {
   std::string id;
   std::string member;
@@ -237,7 +258,8 @@ struct Foundation {
   /// Surface of a one-sided foundation: w is the depth of each point below the surface, whose reaction is
   /// normal to the surface at its nearest point. `side` and `direction` are not used then.
   std::optional<Outline> outline = std::nullopt;
-  bool tangential = false;  ///< w is the displacement along the initial tangent; bilateral, without G
+  /// But along the normal, a foundation is bilateral and has no G, and `side` and `direction` are not used.
+  FoundationComponent component = FoundationComponent::normal;
   /// w is the displacement relative to this one, and an outline moves with it.
   std::optional<GroundDisplacement> displacement = std::nullopt;
   /// What the ground with the shear layer of a one-sided foundation does at the ends of the range.

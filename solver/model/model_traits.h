@@ -10,13 +10,16 @@ namespace snapthrough {
 struct ModelTraits {
   /// Some support acts on one side only: the tangent jumps where contact begins or ends.
   bool one_sided = false;
-  /// The law of some support has a curve, at whose bends the tangent may jump.
+  /// The law of some support or joint has a curve, at whose bends the tangent may jump.
   bool has_curves = false;
-  /// The tangent of some support changes with the displacements: a law with a curve, or a surface.
+  /// The tangent of some support or joint changes with the displacements: a law with a curve, or a surface.
   bool curved_supports = false;
   /// All actions have a potential: the tangent is symmetric, and stability is lost by divergence alone.
   bool symmetric = true;
   bool has_mass = false;
+  /// The loads move the structure without strain, until members that pull only are tight: it has no state
+  /// without load.
+  bool loose = false;
   /// Some support remembers the path to a state, so that unknowns and load factor alone do not determine its
   /// forces.
   bool remembers = false;

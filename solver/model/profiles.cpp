@@ -1,61 +1,189 @@
-/// I sections of the European standard: depth, width, web, flange, root radius in millimetres.
-/// Source: EN 10365:2017, nominal dimensions; HEA, HEB, HEM n are its HE n A, HE n B, HE n M.
+#include "solver/model/profiles.h"
 
-#include "solver/model/section_shape.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "solver/model/profile_tables.h"
 
 namespace snapthrough {
+
 namespace {
 
-constexpr Profile kProfiles[] = {
-    {"IPE 80", {80, 46, 3.8, 5.2, 5}},       {"IPE 100", {100, 55, 4.1, 5.7, 7}},
-    {"IPE 120", {120, 64, 4.4, 6.3, 7}},     {"IPE 140", {140, 73, 4.7, 6.9, 7}},
-    {"IPE 160", {160, 82, 5, 7.4, 9}},       {"IPE 180", {180, 91, 5.3, 8, 9}},
-    {"IPE 200", {200, 100, 5.6, 8.5, 12}},   {"IPE 220", {220, 110, 5.9, 9.2, 12}},
-    {"IPE 240", {240, 120, 6.2, 9.8, 15}},   {"IPE 270", {270, 135, 6.6, 10.2, 15}},
-    {"IPE 300", {300, 150, 7.1, 10.7, 15}},  {"IPE 330", {330, 160, 7.5, 11.5, 18}},
-    {"IPE 360", {360, 170, 8, 12.7, 18}},    {"IPE 400", {400, 180, 8.6, 13.5, 21}},
-    {"IPE 450", {450, 190, 9.4, 14.6, 21}},  {"IPE 500", {500, 200, 10.2, 16, 21}},
-    {"IPE 550", {550, 210, 11.1, 17.2, 24}}, {"IPE 600", {600, 220, 12, 19, 24}},
-    {"HEA 100", {96, 100, 5, 8, 12}},        {"HEA 120", {114, 120, 5, 8, 12}},
-    {"HEA 140", {133, 140, 5.5, 8.5, 12}},   {"HEA 160", {152, 160, 6, 9, 15}},
-    {"HEA 180", {171, 180, 6, 9.5, 15}},     {"HEA 200", {190, 200, 6.5, 10, 18}},
-    {"HEA 220", {210, 220, 7, 11, 18}},      {"HEA 240", {230, 240, 7.5, 12, 21}},
-    {"HEA 260", {250, 260, 7.5, 12.5, 24}},  {"HEA 280", {270, 280, 8, 13, 24}},
-    {"HEA 300", {290, 300, 8.5, 14, 27}},    {"HEA 320", {310, 300, 9, 15.5, 27}},
-    {"HEA 340", {330, 300, 9.5, 16.5, 27}},  {"HEA 360", {350, 300, 10, 17.5, 27}},
-    {"HEA 400", {390, 300, 11, 19, 27}},     {"HEA 450", {440, 300, 11.5, 21, 27}},
-    {"HEA 500", {490, 300, 12, 23, 27}},     {"HEA 550", {540, 300, 12.5, 24, 27}},
-    {"HEA 600", {590, 300, 13, 25, 27}},     {"HEA 650", {640, 300, 13.5, 26, 27}},
-    {"HEA 700", {690, 300, 14.5, 27, 27}},   {"HEA 800", {790, 300, 15, 28, 30}},
-    {"HEA 900", {890, 300, 16, 30, 30}},     {"HEA 1000", {990, 300, 16.5, 31, 30}},
-    {"HEB 100", {100, 100, 6, 10, 12}},      {"HEB 120", {120, 120, 6.5, 11, 12}},
-    {"HEB 140", {140, 140, 7, 12, 12}},      {"HEB 160", {160, 160, 8, 13, 15}},
-    {"HEB 180", {180, 180, 8.5, 14, 15}},    {"HEB 200", {200, 200, 9, 15, 18}},
-    {"HEB 220", {220, 220, 9.5, 16, 18}},    {"HEB 240", {240, 240, 10, 17, 21}},
-    {"HEB 260", {260, 260, 10, 17.5, 24}},   {"HEB 280", {280, 280, 10.5, 18, 24}},
-    {"HEB 300", {300, 300, 11, 19, 27}},     {"HEB 320", {320, 300, 11.5, 20.5, 27}},
-    {"HEB 340", {340, 300, 12, 21.5, 27}},   {"HEB 360", {360, 300, 12.5, 22.5, 27}},
-    {"HEB 400", {400, 300, 13.5, 24, 27}},   {"HEB 450", {450, 300, 14, 26, 27}},
-    {"HEB 500", {500, 300, 14.5, 28, 27}},   {"HEB 550", {550, 300, 15, 29, 27}},
-    {"HEB 600", {600, 300, 15.5, 30, 27}},   {"HEB 650", {650, 300, 16, 31, 27}},
-    {"HEB 700", {700, 300, 17, 32, 27}},     {"HEB 800", {800, 300, 17.5, 33, 30}},
-    {"HEB 900", {900, 300, 18.5, 35, 30}},   {"HEB 1000", {1000, 300, 19, 36, 30}},
-    {"HEM 100", {120, 106, 12, 20, 12}},     {"HEM 120", {140, 126, 12.5, 21, 12}},
-    {"HEM 140", {160, 146, 13, 22, 12}},     {"HEM 160", {180, 166, 14, 23, 15}},
-    {"HEM 180", {200, 186, 14.5, 24, 15}},   {"HEM 200", {220, 206, 15, 25, 18}},
-    {"HEM 220", {240, 226, 15.5, 26, 18}},   {"HEM 240", {270, 248, 18, 32, 21}},
-    {"HEM 260", {290, 268, 18, 32.5, 24}},   {"HEM 280", {310, 288, 18.5, 33, 24}},
-    {"HEM 300", {340, 310, 21, 39, 27}},     {"HEM 320", {359, 309, 21, 40, 27}},
-    {"HEM 340", {377, 309, 21, 40, 27}},     {"HEM 360", {395, 308, 21, 40, 27}},
-    {"HEM 400", {432, 307, 21, 40, 27}},     {"HEM 450", {478, 307, 21, 40, 27}},
-    {"HEM 500", {524, 306, 21, 40, 27}},     {"HEM 550", {572, 306, 21, 40, 27}},
-    {"HEM 600", {620, 305, 21, 40, 27}},     {"HEM 650", {668, 305, 21, 40, 27}},
-    {"HEM 700", {716, 304, 21, 40, 27}},     {"HEM 800", {814, 303, 21, 40, 30}},
-    {"HEM 900", {910, 302, 21, 40, 30}},     {"HEM 1000", {1008, 302, 21, 40, 30}},
+// ---- Forms of the series. Tapers: EN 10365:2017, as DIN 1025-1 (IPN) and DIN 1026-1 (UPN).
+
+FlangedSection parallel_i(const FlangedSection& row) { return row; }
+
+FlangedSection parallel_channel(const FlangedSection& row) {
+  FlangedSection out = row;
+  out.channel = true;
+  return out;
+}
+
+/// Inner faces of slope 14 %, thickness at a quarter of the width, toe radius 0.6 of the root radius.
+FlangedSection tapered_i(const FlangedSection& row) {
+  FlangedSection out = row;
+  out.slope = 0.14;
+  out.flange_at = 0.25 * row.width;
+  out.toe_radius = 0.6 * row.root_radius;
+  return out;
+}
+
+/// Inner faces of slope 8 %, thickness at half of the width; above a depth of 300 mm slope 5 %, thickness at
+/// half of the clear width. Toe radius half of the root radius.
+FlangedSection tapered_channel(const FlangedSection& row) {
+  constexpr double kLargestOfFirstForm = 300.0;
+  const bool first = row.depth <= kLargestOfFirstForm;
+  FlangedSection out = parallel_channel(row);
+  out.slope = first ? 0.08 : 0.05;
+  out.flange_at = 0.5 * (first ? row.width : row.width - row.web);
+  out.toe_radius = 0.5 * row.root_radius;
+  return out;
+}
+
+// ---- Names.
+
+/// Letters and numbers of a name: "HE 200 A" and "HEA200" have the letters HEA and the number 200.
+struct NameParts {
+  std::string letters;
+  std::vector<double> numbers;
+
+  auto operator<=>(const NameParts&) const = default;
 };
+
+/// Letters in common use for those of the tables.
+std::string in_letters_of_tables(std::string letters) {
+  static constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
+      {"UKB", "UB"}, {"UKC", "UC"}, {"INP", "IPN"}, {"UNP", "UPN"}};
+  for (const auto& [other, own] : kOthers)
+    if (letters == other) return std::string(own);
+  return letters;
+}
+
+bool is_digit(char c) { return (c >= '0' && c <= '9') || c == '.'; }
+
+/// The name in upper case, with 'X' for each sign of multiplication and '.' for a comma; a blank between two
+/// numbers becomes 'X', others vanish.
+std::string plain(std::string_view name) {
+  constexpr std::string_view kTimes = "\xC3\x97";  // U+00D7
+  std::string out;
+  bool blank = false;
+  while (!name.empty()) {
+    const bool times = name.starts_with(kTimes);
+    char c = times || name[0] == '*' ? 'X' : name[0] == ',' ? '.' : name[0];
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    name.remove_prefix(times ? kTimes.size() : 1);
+    if (c == ' ') {
+      blank = true;
+      continue;
+    }
+    if (blank && is_digit(c) && !out.empty() && is_digit(out.back())) out += 'X';
+    blank = false;
+    out += c;
+  }
+  return out;
+}
+
+/// Parts of a name; empty unless it is letters, numbers joined by X, letters, with numbers at all.
+std::optional<NameParts> parts_of(std::string_view name) {
+  const std::string text = plain(name);
+  const auto is_letter = [](char c) { return c >= 'A' && c <= 'Z' && c != 'X'; };
+  NameParts out;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end && is_letter(*at)) out.letters += *at++;
+  while (at != end && is_digit(*at)) {
+    const auto [after, error] =
+        std::from_chars(at, end, out.numbers.emplace_back(), std::chars_format::fixed);
+    if (error != std::errc()) return std::nullopt;
+    at = after;
+    if (at + 1 < end && *at == 'X' && is_digit(at[1])) ++at;
+  }
+  while (at != end && is_letter(*at)) out.letters += *at++;
+  if (at != end || out.numbers.empty() || out.letters.empty()) return std::nullopt;
+  out.letters = in_letters_of_tables(std::move(out.letters));
+  return out;
+}
+
+using Index = std::map<NameParts, RolledProfile>;
+
+const Index& index() {
+  static const Index all = [] {
+    Index out;
+    for (const ProfileSeries& series : profile_series())
+      for (const Profile& profile : series.profiles)
+        out[parts_of(profile.name).value()] = {&series, &profile};
+    return out;
+  }();
+  return all;
+}
+
+/// Sum of the relative differences of the numbers; a number that only one name has counts 1.
+double distance(std::span<const double> a, std::span<const double> b) {
+  const std::size_t common = std::min(a.size(), b.size());
+  auto out = static_cast<double>(std::max(a.size(), b.size()) - common);
+  for (std::size_t i = 0; i < common; ++i) out += std::abs(a[i] - b[i]) / std::max(a[i], b[i]);
+  return out;
+}
 
 }  // namespace
 
-std::span<const Profile> profiles() { return kProfiles; }
+std::span<const ProfileSeries> profile_series() {
+  constexpr std::string_view kEuropean = "EN 10365:2017";
+  constexpr double kInch = 25.4;
+  static const ProfileSeries all[] = {{"IPE", kEuropean, 1.0, parallel_i, ipe_profiles()},
+                                      {"IPN", kEuropean, 1.0, tapered_i, ipn_profiles()},
+                                      {"HE", kEuropean, 1.0, parallel_i, he_profiles()},
+                                      {"HD", kEuropean, 1.0, parallel_i, hd_profiles()},
+                                      {"HL", kEuropean, 1.0, parallel_i, hl_profiles()},
+                                      {"HP", kEuropean, 1.0, parallel_i, hp_profiles()},
+                                      {"UB", kEuropean, 1.0, parallel_i, ub_profiles()},
+                                      {"UC", kEuropean, 1.0, parallel_i, uc_profiles()},
+                                      {"UPE", kEuropean, 1.0, parallel_channel, upe_profiles()},
+                                      {"UPN", kEuropean, 1.0, tapered_channel, upn_profiles()},
+                                      {"W", "AISC", kInch, parallel_i, w_profiles()}};
+  return all;
+}
+
+std::optional<RolledProfile> find_profile(std::string_view name) {
+  const auto parts = parts_of(name);
+  if (!parts) return std::nullopt;
+  const auto found = index().find(*parts);
+  return found == index().end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<std::string_view> profiles_near(std::string_view name) {
+  constexpr std::size_t kMost = 3;
+  const auto parts = parts_of(name);
+  if (!parts) return {};
+  const auto& [letters, numbers] = *parts;
+  // The letters may be the first of several series: "HE 200" lacks the A, B or M.
+  const bool whole = std::any_of(index().begin(), index().end(), [&](const Index::value_type& entry) {
+    return entry.first.letters == letters && entry.first.numbers.size() == numbers.size();
+  });
+  std::vector<std::pair<double, std::string_view>> near;
+  for (const auto& [key, rolled] : index())
+    if (whole ? key.letters == letters : key.letters.starts_with(letters))
+      near.emplace_back(distance(numbers, key.numbers), rolled.profile->name);
+  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string_view> out;
+  for (const auto& [unused, found] : near)
+    if (out.size() < kMost) out.push_back(found);
+  return out;
+}
+
+SectionGeometry geometry_of(const RolledProfile& rolled, double millimetre) {
+  const double unit = rolled.series->unit * millimetre;
+  SectionGeometry out = flanged_section(scaled(rolled.series->complete(rolled.profile->section), unit));
+  if (rolled.profile->area > 0.0) out.area = rolled.profile->area * unit * unit;
+  if (rolled.profile->second_moment > 0.0)
+    out.second_moment = rolled.profile->second_moment * unit * unit * unit * unit;
+  return out;
+}
 
 }  // namespace snapthrough

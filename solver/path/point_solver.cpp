@@ -101,6 +101,50 @@ CorrectorOutcome PointSolver::correct_by_least_energy(double scale, int iteratio
   return correct_with({}, scale, downhill(options_, iterations), point);
 }
 
+namespace {
+
+/// Limits of the search for a state that tension stiffens. Chosen: drags span what a net of a thousand
+/// members needs, and each of some twenty steps falls by a factor of ten.
+struct TightSearch {
+  static constexpr int steps = 200;
+  static constexpr int corrections = 60;     ///< Newton corrections of each step
+  static constexpr double first_drag = 1.0;  ///< over the stiffness of a rod
+  static constexpr double fall = 0.1;        ///< factor on the drag after a step
+  static constexpr double most_drag = 1e6;   ///< beyond it the search ends
+  static constexpr double near = 0.1;        ///< step over the displacements from which drag is left out
+};
+
+}  // namespace
+
+bool PointSolver::find_tight_state(double lambda, VectorXd& y) {
+  PathPoint point;
+  point.y = y;
+  point.lambda = lambda;
+  double drag = TightSearch::first_drag;
+  for (int step = 0; step < TightSearch::steps && drag < TightSearch::most_drag; ++step) {
+    const VectorXd from = point.y;
+    CorrectorOptions options = downhill(options_, TightSearch::corrections);
+    options.regime.drag = drag;
+    options.regime.dragged_from = &from;
+    const double size = std::max(norm_.metric().norm(from, 0.0), Gradients::tiny);
+    if (correct_with({}, size, options, point).status != CorrectorStatus::converged) {
+      point.y = from;
+      point.lambda = lambda;
+      drag /= TightSearch::fall;
+      continue;
+    }
+    drag *= TightSearch::fall;
+    const double moved = norm_.metric().norm(point.y - from, 0.0);
+    if (moved > TightSearch::near * norm_.metric().norm(point.y, 0.0)) continue;
+    PathPoint free = point;
+    const auto outcome = correct_by_least_energy(moved, TightSearch::corrections, free);
+    if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) continue;
+    y = std::move(free.y);
+    return true;
+  }
+  return false;
+}
+
 std::optional<ContactState> PointSolver::contact_state(double lambda, const SharedHolds& holds,
                                                        const VectorXd* guess, bool small_displacements) {
   problem_.set_holds(holds);
@@ -108,13 +152,19 @@ std::optional<ContactState> PointSolver::contact_state(double lambda, const Shar
                             small_displacements);
 }
 
-VectorXd PointSolver::free_motion() {
+VectorXd PointSolver::unresisted_motion() {
   const PathMetric& metric = norm_.metric();
   VectorXd motion = metric.weights->cwiseProduct(pseudo_random(problem_.size(), 1U));
-  VectorXd held = motion;
   problem_.solve(motion);
+  return metric.norm(motion, 0.0) < kSingularResponse ? VectorXd() : motion;
+}
+
+VectorXd PointSolver::free_motion() {
+  const PathMetric& metric = norm_.metric();
+  VectorXd motion = unresisted_motion();
+  if (motion.size() == 0) return {};
   const double size = metric.norm(motion, 0.0);
-  if (size < kSingularResponse) return {};
+  VectorXd held = metric.weights->cwiseProduct(pseudo_random(problem_.size(), 1U));
   Regime bilateral;
   bilateral.contact = Regime::Contact::bilateral;
   problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual, bilateral);

@@ -57,6 +57,14 @@ class PointSolver {
   [[nodiscard]] bool correct_at_load(double scale, PathPoint& point);
   /// @brief Corrects a point at its load; each correction is shortened to where it lowers the energy most.
   [[nodiscard]] CorrectorOutcome correct_by_least_energy(double scale, int iterations, PathPoint& point);
+  /// @brief Equilibrium at a load of a structure that only tension stiffens, by least energy: each state is
+  /// that of least energy with rods that resist to displacements from the state before (the proximal point
+  /// algorithm: Rockafellar, SIAM J. Control Optim. 14, 1976), less and less.
+  /// @param y a state to begin with; the equilibrium where there is one
+  /// @return whether a stable equilibrium was found; a part of the structure may hang on slack members there
+  [[nodiscard]] bool find_tight_state(double lambda, Eigen::VectorXd& y);
+  /// @brief A motion that the last factors do not resist; empty: there is none.
+  [[nodiscard]] Eigen::VectorXd unresisted_motion();
   /// @brief Equilibrium at a load when nothing is known of the contact, see find_contact_state().
   /// @param holds of the wanted state
   [[nodiscard]] std::optional<ContactState> contact_state(double lambda, const SharedHolds& holds,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/discrete/least_euler_load.h"
 #include "solver/mesh/dof_map.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/rounding.h"
@@ -47,7 +48,7 @@ double imposed_gradient(const Structure& structure, const VectorXd& load,
 
 ForceScales::ForceScales(const Structure& structure, ElementWork& elements) : structure_(structure) {
   loads_ = {of_loads(elements, {1.0, 0.0}), of_loads(elements, {0.0, 1.0})};
-  const double softest = *std::min_element(structure.euler_loads.begin(), structure.euler_loads.end());
+  const double softest = least_euler_load(structure);
   imposed_ = {softest * imposed_gradient(structure, structure.proportional_load, &NodeSupport::proportional),
               softest * imposed_gradient(structure, structure.constant_load, &NodeSupport::constant)};
 }

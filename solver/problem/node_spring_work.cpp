@@ -62,6 +62,14 @@ NodeSpringWork::State NodeSpringWork::state_of_stop(std::size_t index, const Vec
   return out;
 }
 
+/// Adds the resistance of a rod to displacements from those of another state.
+void NodeSpringWork::add_drag(const NodeSpring& rod, const VectorXd& y, const Regime& regime, State& state) {
+  const double stiffness = regime.drag * rod.law.stiffness;
+  const Vector3d moved = rod.relative(y) - rod.relative(*regime.dragged_from);
+  state.drag.head<2>() = stiffness * moved.head<2>();
+  state.tangent.diagonal().head<2>().array() += stiffness;
+}
+
 void NodeSpringWork::evaluate(const VectorXd& y, const Regime& regime) {
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const NodeSpring& spring = springs_[i];
@@ -78,12 +86,13 @@ void NodeSpringWork::evaluate(const VectorXd& y, const Regime& regime) {
     states_[i].gradient = gradient;
     states_[i].force = at.force;
     states_[i].tangent = at.stiffness * gradient * gradient.transpose() + turning * curvature;
+    if (regime.drag > 0.0 && spring.is_rod()) add_drag(spring, y, regime, states_[i]);
   }
 }
 
 void NodeSpringWork::add_forces(VectorXd& f) const {
   for (std::size_t i = 0; i < springs_.size(); ++i)
-    springs_[i].add(states_[i].force * states_[i].gradient, f);
+    springs_[i].add(states_[i].force * states_[i].gradient + states_[i].drag, f);
   for (std::size_t i = 0; stops_ > 0 && i < springs_.size(); ++i)
     if (springs_[i].is_stop()) f[springs_[i].force_unknown] += states_[i].gap;
 }
@@ -96,8 +105,12 @@ double NodeSpringWork::log_abs_det_of_stops() const {
 }
 
 void NodeSpringWork::add_products(const Eigen::Ref<const VectorXd>& motion, Eigen::Ref<VectorXd> out) const {
-  for (std::size_t i = 0; i < springs_.size(); ++i)
-    springs_[i].add(states_[i].tangent * springs_[i].relative(motion), out);
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    Vector3d force = states_[i].tangent * springs_[i].relative(motion);
+    if (const int given = springs_[i].without_force; given >= 0)
+      force += force_by_pretension(i) * motion[given];
+    springs_[i].add(force, out);
+  }
   for (std::size_t i = 0; stops_ > 0 && i < springs_.size(); ++i) {
     if (!springs_[i].is_stop()) continue;
     const double force = motion[springs_[i].force_unknown];
@@ -108,7 +121,8 @@ void NodeSpringWork::add_products(const Eigen::Ref<const VectorXd>& motion, Eige
 }
 
 /// With p(w) the reaction, g and C the derivatives of w, the tangent K = p' g g^T + p C changes along a by
-/// p'' (g.a) g g^T + p' [C a g^T + g (C a)^T + (g.a) C] + p dC.
+/// p'' (g.a) g g^T + p' [C a g^T + g (C a)^T + (g.a) C] + p dC. Of a motion that changes a pretension, g.a
+/// contains that change.
 void NodeSpringWork::add_changes(const VectorXd& y, bool small_displacements, const VectorXd& along,
                                  const Eigen::Ref<const VectorXd>& motion, Eigen::Ref<VectorXd> out) const {
   for (const NodeSpring& spring : springs_) {
@@ -119,9 +133,11 @@ void NodeSpringWork::add_changes(const VectorXd& y, bool small_displacements, co
     const Law::Response law = spring.law.response_at(w - spring.law.gap);
     const Vector3d a = spring.relative(along);
     const Vector3d b = spring.relative(motion);
-    Vector3d change = law.rate * g.dot(a) * g.dot(b) * g;
+    const double wa = g.dot(a) + spring.pretensioned(along);
+    const double wb = g.dot(b) + spring.pretensioned(motion);
+    Vector3d change = law.rate * wa * wb * g;
     if (turns)
-      change += law.stiffness * (g.dot(b) * (C * a) + b.dot(C * a) * g + g.dot(a) * (C * b)) +
+      change += law.stiffness * (wb * (C * a) + b.dot(C * a) * g + wa * (C * b)) +
                 law.force * (spring.curvature_change(y, along) * b);
     spring.add(change, out);
   }
@@ -134,8 +150,9 @@ double NodeSpringWork::rounding(const VectorXd& y) const {
     if (states_[i].stiffness == 0.0) continue;
     Vector3d sizes = DofMap::at(y, spring.node).cwiseAbs();
     if (spring.to >= 0) sizes += DofMap::at(y, spring.to).cwiseAbs();
-    largest = std::max(largest,
-                       states_[i].stiffness * (spring.law.gap + states_[i].gradient.cwiseAbs().dot(sizes)));
+    const double size =
+        spring.law.gap + std::abs(spring.pretensioned(y)) + states_[i].gradient.cwiseAbs().dot(sizes);
+    largest = std::max(largest, states_[i].stiffness * size);
   }
   return largest * std::numeric_limits<double>::epsilon();
 }

@@ -37,7 +37,7 @@ void NodeSystem::set_holds(const SharedHolds& holds) {
 }
 
 TangentReport NodeSystem::factorise(std::span<const CondensedElement> condensed,
-                                    const NodeSpringWork& springs) {
+                                    const NodeSpringWork& springs, const JointWork& joints) {
   TangentReport report;
   for (std::size_t part = 0; part < parts_; ++part) {
     chains_[part].factorise(of_part(condensed, part));
@@ -45,7 +45,7 @@ TangentReport NodeSystem::factorise(std::span<const CondensedElement> condensed,
     report.log_abs_det += chains_[part].ends().log_det;
   }
   if (!planned_) plan();
-  assemble(springs);
+  assemble(springs, joints);
   factor_.factorise(blocks_);
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
   report.negative +=
@@ -72,6 +72,7 @@ void NodeSystem::plan() {
     add(spring.node, rows);
     if (spring.to >= 0) add(spring.to, rows);
     if (spring.is_stop()) rows.push_back(spring.force_unknown);
+    if (spring.without_force >= 0) rows.push_back(spring.without_force);
   }
   for (const JointSpring& joint : structure_.joints)
     rows_.push_back({joint.node_rotation, joint.end_rotation});
@@ -93,13 +94,13 @@ void NodeSystem::plan() {
   planned_ = true;
 }
 
-void NodeSystem::assemble(const NodeSpringWork& springs) {
+void NodeSystem::assemble(const NodeSpringWork& springs, const JointWork& joints) {
   for (std::size_t part = 0; part < parts_; ++part) fill_part(part, blocks_[part]);
   for (std::size_t i = 0; i < structure_.node_springs.size(); ++i)
     fill_spring(springs, i, blocks_[parts_ + i]);
   const std::size_t first_joint = parts_ + structure_.node_springs.size();
   for (std::size_t i = 0; i < structure_.joints.size(); ++i) {
-    const double k = structure_.joints[i].stiffness;
+    const double k = joints.stiffness(i);
     blocks_[first_joint + i] = (MatrixXd(2, 2) << k, -k, -k, k).finished();
   }
   const std::size_t first_hold = first_joint + structure_.joints.size();
@@ -119,13 +120,15 @@ void NodeSystem::fill_part(std::size_t part, MatrixXd& block) const {
 }
 
 /// Writes the tangent stiffness of a spring at its node, and at the other node where it has one; last the row
-/// of a stop.
+/// of a stop or of a pretension, of which the spring has at most one. The pretension is prescribed, so that
+/// its diagonal is not used.
 void NodeSystem::fill_spring(const NodeSpringWork& springs, std::size_t spring, MatrixXd& block) const {
   const NodeSpring& at = structure_.node_springs[spring];
   const Matrix3d& tangent = springs.tangent(spring);
   const Matrix3d here = axes_.axes_of(DofMap::of(at.node));
   const Index moved = DofMap::count<Index>(at.to < 0 ? 1 : 2);
-  const Index size = moved + (at.is_stop() ? 1 : 0);
+  const bool is_pretensioned = at.without_force >= 0;
+  const Index size = moved + (at.is_stop() || is_pretensioned ? 1 : 0);
   block.setZero(size, size);
   block.topLeftCorner<3, 3>() = here.transpose() * tangent * here;
   if (at.is_stop()) {
@@ -137,6 +140,10 @@ void NodeSystem::fill_spring(const NodeSpringWork& springs, std::size_t spring, 
   block.block<3, 3>(3, 0) = -there.transpose() * tangent * here;
   block.block<3, 3>(3, 3) = there.transpose() * tangent * there;
   if (at.is_stop()) block.row(moved).segment<3>(3) = -springs.row_by_motion(spring).transpose() * there;
+  if (!is_pretensioned) return;
+  const Eigen::RowVector3d force = springs.force_by_pretension(spring).transpose();
+  block.row(moved).head<3>() = force * here;
+  block.row(moved).segment<3>(3) = -force * there;
 }
 
 /// Writes the rows of the holds at a node; the first node has the diagonal of the holds' forces.

@@ -11,6 +11,7 @@
 #include "solver/member/chain.h"
 #include "solver/numeric/symmetric_indefinite.h"
 #include "solver/problem/equilibrium_problem.h"
+#include "solver/problem/joint_work.h"
 #include "solver/problem/node_spring_work.h"
 #include "solver/problem/support_axes.h"
 
@@ -42,14 +43,15 @@ class NodeSystem {
   void set_holds(const SharedHolds& holds);
   /// @brief Factorises the tangent stiffness of all nodes, for solve(), and counts its negative eigenvalues.
   /// @param condensed one entry per element
-  TangentReport factorise(std::span<const CondensedElement> condensed, const NodeSpringWork& springs);
+  TangentReport factorise(std::span<const CondensedElement> condensed, const NodeSpringWork& springs,
+                          const JointWork& joints);
   /// @brief x := K^-1 x. Couplings of elements and loads that follow are no part of K.
   /// @param elements hold the factors of their interiors
   void solve(ElementWork& elements, Eigen::Ref<Eigen::MatrixXd> x);
 
  private:
   void plan();
-  void assemble(const NodeSpringWork& springs);
+  void assemble(const NodeSpringWork& springs, const JointWork& joints);
   void fill_part(std::size_t part, Eigen::MatrixXd& block) const;
   void fill_spring(const NodeSpringWork& springs, std::size_t spring, Eigen::MatrixXd& block) const;
   void fill_hold(int node, Eigen::MatrixXd& block) const;
@@ -79,7 +81,7 @@ class NodeSystem {
   std::vector<CondensedForces> condensed_forces_;
   std::vector<Eigen::Index> free_;       ///< rows that are unknown
   std::vector<std::vector<int>> rows_;   ///< rows of each block
-  std::vector<Eigen::MatrixXd> blocks_;  ///< blocks of members, node springs and held nodes
+  std::vector<Eigen::MatrixXd> blocks_;  ///< blocks of members, node springs, joints and held nodes
   SymmetricIndefinite factor_;
   Eigen::MatrixXd node_rhs_, free_rhs_;  ///< scratch of solve()
   SharedHolds holds_;

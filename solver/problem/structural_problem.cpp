@@ -25,6 +25,7 @@ StructuralProblem::StructuralProblem(const Structure& structure)
       stop_(structure.stop),
       elements_(structure.elements->make_work()),
       springs_(structure.node_springs),
+      joints_(structure.joints),
       axes_(structure),
       scales_(structure, *elements_),
       nodes_(structure, axes_),
@@ -34,7 +35,8 @@ StructuralProblem::StructuralProblem(const Structure& structure)
 void StructuralProblem::add_node_springs(const VectorXd& y, const Regime& regime, VectorXd& f) {
   springs_.evaluate(y, regime);
   springs_.add_forces(f);
-  add_joint_moments(structure_, y, f);
+  joints_.evaluate(y, regime);
+  joints_.add_moments(f);
 }
 
 void StructuralProblem::force_along(const VectorXd& motion, VectorXd& out) const {
@@ -118,7 +120,7 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
   elements_->linearise(y, factors(lambda), regime, f, condensed_);
   add_node_springs(y, regime, f);
   add_holds(y, f);
-  TangentReport report = nodes_.factorise(condensed_, springs_);
+  TangentReport report = nodes_.factorise(condensed_, springs_, joints_);
   corrected_ = !follower_loads_.empty() && !regime.small_displacements;
   add_couplings(report);
   if (corrected_) add_follower_loads(y, lambda, report);
@@ -181,11 +183,7 @@ void StructuralProblem::solve_uncoupled(const Eigen::Ref<MatrixXd>& x) {
 
 /// Relative residual that half a unit in the last place of the displacements leaves at the stiffest support.
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
-  double largest = std::max(elements_->support_rounding(), springs_.rounding(y));
-  for (const JointSpring& joint : structure_.joints) {
-    const double size = std::abs(y[joint.node_rotation]) + std::abs(y[joint.end_rotation]);
-    largest = std::max(largest, joint.stiffness * size * std::numeric_limits<double>::epsilon());
-  }
+  const double largest = std::max({elements_->support_rounding(), springs_.rounding(y), joints_.rounding(y)});
   const double force = scales_.reference(y, factors(lambda));
   return force > 0.0 ? std::min(0.5 * largest / force, kMostRounding) : 0.0;
 }
@@ -197,6 +195,7 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
   elements_->add_tangent_products(y, factors(lambda), regime, directions, products);
   springs_.evaluate(y, regime);
+  joints_.evaluate(y, regime);
   for (Index i = 0; i < directions.cols(); ++i)
     add_node_products(y, lambda, regime, directions.col(i), products.col(i));
   return products;
@@ -212,6 +211,7 @@ MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double lambda, con
   elements_->add_tangent_changes(y, rates, regime_of({}), along.y, motions, change);
   for (Index i = 0; i < change.cols(); ++i) {
     springs_.add_changes(y, structure_.geometry == Geometry::linear, along.y, motions.col(i), change.col(i));
+    joints_.add_changes(y, along.y, motions.col(i), change.col(i));
     follower_loads_.add_change(y, factors(lambda), rates, along.y, motions.col(i), change.col(i));
     axes_.release(change.col(i));
   }
@@ -234,7 +234,7 @@ void StructuralProblem::add_node_products(const VectorXd& y, double lambda, cons
                                           Eigen::Ref<VectorXd> out) const {
   if (!regime.small_displacements) follower_loads_.add_product(y, factors(lambda), direction, out);
   springs_.add_products(direction, out);
-  add_joint_moments(structure_, direction, out);
+  joints_.add_products(direction, out);
   if (holds_) {
     const Eigen::MatrixXd& H = holds_->motions;
     out.head(H.rows()) += holds_->stiffness * (H * (H.transpose() * direction.head(H.rows())));

@@ -12,6 +12,7 @@
 #include "solver/problem/contact_questions.h"
 #include "solver/problem/equilibrium_problem.h"
 #include "solver/problem/force_scales.h"
+#include "solver/problem/joint_work.h"
 #include "solver/problem/node_spring_work.h"
 #include "solver/problem/node_system.h"
 #include "solver/problem/support_axes.h"
@@ -133,6 +134,7 @@ class StructuralProblem final : public EquilibriumProblem {
   std::stop_token stop_;
   std::unique_ptr<ElementWork> elements_;
   NodeSpringWork springs_;
+  JointWork joints_;
   SupportAxes axes_;
   ForceScales scales_;
   NodeSystem nodes_;

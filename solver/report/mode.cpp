@@ -107,7 +107,8 @@ std::vector<EffectiveLength> effective_lengths(const ResolvedModel& model, const
     EffectiveLength& one = out.emplace_back();
     one.id = model.members[m].id;
     const AlongMember& EI = model.sections[model.members[m].section].EI;
-    if (!(compressions[m] > ModeLimits::small_compression * largest) || EI.varies()) continue;
+    if (!(compressions[m] > ModeLimits::small_compression * largest)) continue;
+    if (EI.varies() || std::isinf(EI.constant)) continue;
     one.length = std::numbers::pi * std::sqrt(EI.constant / compressions[m]);
     one.ratio = *one.length / lengths[m];
   }

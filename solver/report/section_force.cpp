@@ -130,9 +130,9 @@ void SectionForces::add_lumped(const FoundationHere& foundation) {
   for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
     const double xi = lobatto.points[i];
     if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
-    const Vec2 r = reaction(foundation, xi);
+    const auto [x, z, moment] = reaction(foundation, xi);
     const double length = reader_.length() * lobatto.weights[i];
-    points_.push_back({xi, {length * r[0], length * r[1], 0.0}});
+    points_.push_back({xi, {length * x, length * z, length * moment}});
   }
 }
 
@@ -179,7 +179,7 @@ Vec2 SectionForces::slope(double xi) const {
   return {t[0] + du[0], t[1] + du[1]};
 }
 
-Vec2 SectionForces::reaction(const FoundationHere& foundation, double xi) const {
+std::array<double, 3> SectionForces::reaction(const FoundationHere& foundation, double xi) const {
   const AxisPoint& at = axis_at(xi);
   const double fraction = cell_.from + xi * (cell_.to - cell_.from);
   const Scales& scales = structure_.scales;
@@ -187,11 +187,12 @@ Vec2 SectionForces::reaction(const FoundationHere& foundation, double xi) const 
   const SurfacePoint p = foundation.law.penetration(
       {{scales.scaled_length(at.x), scales.scaled_length(at.y)}, at.angle, fraction}, {u[0], u[1]});
   const double force = -foundation.law.at(fraction).reaction_beyond(p.depth);
-  return {force * p.into[0], force * p.into[1]};
+  const auto row = foundation.law.row(p.into);
+  return {force * row[0], force * row[1], force * row[2]};
 }
 
-Vec2 SectionForces::density(double xi) const {
-  Vec2 f{0.0, 0.0};
+std::array<double, 3> SectionForces::density(double xi) const {
+  std::array<double, 3> f{};
   for (const DeadLoad& load : dead_) {
     if (xi < load.range[0] || xi > load.range[1]) continue;
     const bool is_plain = load.per == LoadMeasure::length && load.axes == LoadAxes::global;
@@ -209,8 +210,8 @@ Vec2 SectionForces::density(double xi) const {
   }
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.lumped || !foundation.touches(xi)) continue;
-    const Vec2 r = reaction(foundation, xi);
-    for (int c = 0; c < 2; ++c) f[c] += r[c];
+    const auto r = reaction(foundation, xi);
+    for (int c = 0; c < 3; ++c) f[c] += r[c];
   }
   return f;
 }
@@ -306,9 +307,10 @@ std::array<double, 3> SectionForces::at(double xi) const {
     const double width = breaks[b + 1] - breaks[b];
     for (std::size_t i = 0; i < gauss_.points.size(); ++i) {
       const double at = breaks[b] + width * gauss_.points[i];
-      const Vec2 f = density(at);
+      const auto f = density(at);
       const double ds = width * gauss_.weights[i] * reader_.length();
       add(position(at), ds * f[0], ds * f[1]);
+      sum[2] += ds * f[2];
     }
     add_shear_layers(xi, breaks[b], breaks[b + 1], sum);
   }

@@ -98,10 +98,10 @@ class SectionForces {
     return foundation.direction.rate(axis_at(xi).angle,
                                      structure_.scales.scaled_curvature(axis_at(xi).curvature));
   }
-  /// Reaction of a foundation per length, on the member.
-  [[nodiscard]] Vec2 reaction(const FoundationHere& foundation, double xi) const;
-  /// Force per length at a section, without shear layers.
-  [[nodiscard]] Vec2 density(double xi) const;
+  /// Reaction of a foundation per length, on the member: force (x, y) and moment.
+  [[nodiscard]] std::array<double, 3> reaction(const FoundationHere& foundation, double xi) const;
+  /// Force (x, y) and moment per length at a section, without shear layers.
+  [[nodiscard]] std::array<double, 3> density(double xi) const;
   [[nodiscard]] double shear_layer(const FoundationLaw& foundation, double xi) const;
   void add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const;
   [[nodiscard]] std::vector<double> breaks_beyond(double xi) const;

@@ -13,6 +13,7 @@
 #include "solver/numeric/number_text.h"
 #include "solver/report/contact.h"
 #include "solver/report/peaks.h"
+#include "solver/report/place_stiffness.h"
 #include "solver/report/rod_state.h"
 #include "solver/report/section_force.h"
 #include "solver/report/support_state.h"
@@ -192,8 +193,10 @@ FoundationReader::Values FoundationReader::at(double fraction) const {
   if (law_.law.one_sided && beyond > 0.0 && acting.stiffness > 0.0)
     beyond *= acting.stiffness / law_.at(fraction).stiffness;
   const double w = law_.surface ? beyond : acting.gap + beyond;
-  return {in_users_sense(law_.sense, structure_.scales.line_load() * reaction),
-          in_users_sense(law_.sense, structure_.scales.length * w)};
+  // against rotation: moment per length, and rotation
+  const Scales& scales = structure_.scales;
+  return {in_users_sense(law_.sense, (law_.rotational ? scales.force : scales.line_load()) * reaction),
+          in_users_sense(law_.sense, (law_.rotational ? 1.0 : scales.length) * w)};
 }
 
 PeakRange FoundationReader::peaks(const FoundationState& known) const {
@@ -253,14 +256,17 @@ std::vector<MemberState> member_states(const Structure& structure, const Eigen::
   return out;
 }
 
-State make_state(const Structure& structure, const Eigen::VectorXd& y, double lambda, int points) {
+State make_state(const Structure& structure, const Eigen::VectorXd& y, double lambda,
+                 const OutputOptions& output) {
   const ResolvedModel& model = *structure.model;
+  const int points = output.points_per_member;
   State state;
   state.load_factor = lambda / structure.scales.load;
   state.members = member_states(structure, y, lambda, points);
   for (std::size_t i = 0; i < model.foundations.size(); ++i)
     state.foundations.push_back(foundation_state(structure, y, static_cast<int>(i), points));
   static_cast<void>(add_forces_on_structure(structure, y, lambda, state));
+  state.stiffness_at = place_stiffnesses(structure, y, lambda, output.stiffness_at);
   return state;
 }
 

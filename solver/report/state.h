@@ -13,17 +13,18 @@
 namespace snapthrough {
 
 /// @brief Shapes and section forces at `points` equally spaced places of each member.
-/// @param y, lambda, points as for make_state()
+/// @param y, lambda as for make_state() @pre points >= 2
 [[nodiscard]] std::vector<MemberState> member_states(const Structure& structure, const Eigen::VectorXd& y,
                                                      double lambda, int points);
 
 /// @brief Makes the reported state: members and foundations at `points` equally spaced places, and the forces
 /// of supports, springs, foundations and loads on the structure. Branch and refinements are 0.
+/// @param output number of points, and places whose tangent stiffness is part of the state
 /// @param y scaled unknowns of the structure's problem; the result is in the model's units
 /// @param lambda scaled load factor of the state
-/// @pre points >= 2
+/// @pre output.points_per_member >= 2
 [[nodiscard]] State make_state(const Structure& structure, const Eigen::VectorXd& y, double lambda,
-                               int points);
+                               const OutputOptions& output);
 
 /// @brief What is left of the sum of all actions and reactions in a state, over the largest force and the
 /// largest moment among them. The reactions are those that make_state() reports.

@@ -11,10 +11,12 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/discrete/layer_state.h"
+#include "solver/discrete/least_euler_load.h"
 #include "solver/discrete/stops.h"
 #include "solver/mesh/dof_map.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/rounding.h"
+#include "solver/problem/joint_work.h"
 #include "solver/report/resultant.h"
 
 namespace snapthrough {
@@ -63,7 +65,10 @@ VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidM
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const ResolvedSpring& spring = model.springs[i];
     const SpringForce at = force_of(structure, i, y);
-    const double sense = structure.spring_laws[i].sense;
+    const SpringLaw& law = structure.spring_laws[i];
+    const double sense = law.sense;
+    // the displacement without force is the user's: the reported one is that from the undeformed structure
+    const double given = law.without_force >= 0 ? sense * y[law.without_force] : 0.0;
     const double L = structure.scales.length;
     const double F = structure.scales.force;
     Bearing& bearing = bearings.emplace_back();
@@ -71,15 +76,16 @@ VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidM
     for (double& component : bearing.wrench) component *= -at.force;
     bearing.rounding = at.rounding;
     if (!spring.rod) {
-      state.springs.push_back({spring.id,
-                               in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
-                               in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
-                               at.closed,
-                               {}});
+      state.springs.push_back(
+          {spring.id,
+           in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
+           in_users_sense(sense, (at.displacement + given) * (spring.direction ? L : 1.0)),
+           at.closed,
+           {}});
     }
     if (!spring.at.is_on_member())
       for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
-    else if (const SpringLaw& law = structure.spring_laws[i]; law.force_unknown >= 0)
+    else if (law.force_unknown >= 0)
       DofMap::at(on_nodes, node_of_stop(structure, spring)) -=
           at.force * Eigen::Vector3d(law.row[0], law.row[1], law.row[2]);
   }
@@ -94,7 +100,9 @@ VectorXd held_forces(const Structure& structure, ElementWork& elements, const Ve
   Regime regime;
   regime.small_displacements = structure.geometry == Geometry::linear;
   elements.add_residual(y, {lambda, 1.0}, regime, f);
-  add_joint_moments(structure, y, f);
+  JointWork joints(structure.joints);
+  joints.evaluate(y, regime);
+  joints.add_moments(f);
   return f.head(DofMap::count(structure.nodes)) - springs;
 }
 
@@ -231,7 +239,7 @@ Wrench balance(const Wrench& others, double largest, std::vector<Bearing>& beari
 /// Force and moment at which rounding of the displacements counts as no force, over StateLimits::imbalance:
 /// imposed strains that nothing resists leave forces of that size.
 double rounding_of_forces(const Structure& structure, const VectorXd& y) {
-  const double softest = *std::min_element(structure.euler_loads.begin(), structure.euler_loads.end());
+  const double softest = least_euler_load(structure);
   double displacement = Rounding::displacement;  // where nothing moves
   for (const ElementDofs& dofs : structure.dofs)
     for (const std::array<int, 3>& end : {dofs.a, dofs.b})

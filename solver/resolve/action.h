@@ -46,7 +46,8 @@ struct LineAction {
 /// What a load does at one place, or on one member.
 struct Action {
   std::variant<PointAction, LineAction, PressureAction, StrainAction> what;
-  int load = -1;     ///< index of the load among those of the model; the actions of a load stand together
+  /// Index of the load among those of the model, whose actions stand together; -1: a pretension.
+  int load = -1;
   std::string name;  ///< name of the load for messages
 
   [[nodiscard]] Pattern pattern() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/resolve/pieces.h"
+#include "solver/resolve/pretension.h"
 
 namespace snapthrough {
 namespace {
@@ -75,6 +76,13 @@ void LoadActions::add(const OnMember<PressureLoad>& load) {
 
 void LoadActions::add(const OnMember<InitialStrain>& load) {
   act_on(load.member, {load, load_, "the initial strain of " + named(load.member)});
+}
+
+void LoadActions::add_pretension(int member) {
+  const ResolvedMember& one = out_.members[static_cast<std::size_t>(member)];
+  const StrainAction strain{
+      strain_without_force(one, out_.start_of(one), out_.end_of(one), out_.section_of(one).EA), member};
+  act_on(member, {strain, load_, "the pretension of " + named(member)});
 }
 
 void LoadActions::add(const SelfWeight& load) {

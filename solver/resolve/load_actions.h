@@ -24,6 +24,8 @@ class LoadActions {
   void add(const SelfWeight& load);
   /// @pre the section of the member has an expansion
   void add(const OnMember<TemperatureLoad>& load);
+  /// Adds the constant strain of a member with a pretension.
+  void add_pretension(int member);
 
  private:
   void act_on(int member, Action action);

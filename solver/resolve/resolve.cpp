@@ -7,6 +7,7 @@
 
 #include "solver/model/id_index.h"
 #include "solver/resolve/load_actions.h"
+#include "solver/resolve/pretension.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/resolve/rods.h"
 
@@ -32,7 +33,14 @@ class Resolver {
     return {support, nodes_.of(support.node)};
   }
   [[nodiscard]] ResolvedSpring resolved(const Spring& spring) const {
-    return {spring, located(spring.at), spring.to ? std::optional(located(*spring.to)) : std::nullopt};
+    ResolvedSpring out{spring, located(spring.at), std::nullopt};
+    if (spring.to) out.to = located(*spring.to);
+    const auto node = [this](int index) -> const Node& {
+      return model_.nodes[static_cast<std::size_t>(index)];
+    };
+    if (spring.pretension)
+      out.without_force = displacement_without_force(spring, node(out.at.node), node(out.to->node));
+    return out;
   }
   template <class T>
   [[nodiscard]] auto resolved(const T& one) const {
@@ -70,6 +78,8 @@ ResolvedModel Resolver::resolve() const {
     LoadActions actions(static_cast<int>(i), out);
     std::visit([&](const auto& load) { actions.add(resolved(load)); }, model_.loads[i]);
   }
+  for (std::size_t m = 0; m < out.members.size(); ++m)
+    if (out.members[m].pretension) LoadActions(-1, out).add_pretension(static_cast<int>(m));
   for (const Imperfection& imperfection : model_.imperfections)
     std::visit([&](const auto& one) { out.imperfections.emplace_back(resolved(one)); }, imperfection);
   out.masses = all(model_.masses);

@@ -31,6 +31,7 @@ struct ResolvedSupport : Support {
 struct ResolvedSpring : Spring {
   ResolvedLocation at;
   std::optional<ResolvedLocation> to;
+  double without_force = 0.0;  ///< see displacement_without_force(); of springs with a pretension
   bool operator==(const ResolvedSpring&) const = default;
 };
 

@@ -60,13 +60,23 @@ Spring spring_of(const Member& rod, std::size_t index, const Node& a, const Node
   out.at.node = rod.start;
   out.to = Location{rod.end, "", 0.0};
   out.direction = std::array{b.x - a.x, b.y - a.y};
-  out.stiffness = EA / std::hypot(b.x - a.x, b.y - a.y);
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const bool has_length = rod.pretension && rod.pretension->unstressed_length;
+  out.stiffness = EA / (has_length ? *rod.pretension->unstressed_length : length);
   out.reaction = rod.reaction;
+  out.pretension = rod.pretension;
   out.rod = index;
   return out;
 }
 
 }  // namespace
+
+double longest_rod(const std::vector<ResolvedSpring>& springs) {
+  double out = 0.0;
+  for (const ResolvedSpring& spring : springs)
+    if (spring.rod) out = std::max(out, std::hypot((*spring.direction)[0], (*spring.direction)[1]));
+  return out;
+}
 
 std::optional<Model> with_rods_as_springs(const Model& model) {
   if (std::none_of(model.members.begin(), model.members.end(), is_rod)) return std::nullopt;
@@ -85,7 +95,8 @@ std::optional<Model> with_rods_as_springs(const Model& model) {
     const Section& section = model.sections[static_cast<std::size_t>(sections.of(rod.section))];
     const Spring& spring =
         out.springs.emplace_back(spring_of(rod, m, node(rod.start), node(rod.end), section.EA));
-    const double length = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
+    const double drawn = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
+    const double length = rod.pretension ? rod.pretension->unstressed_length.value_or(drawn) : drawn;
     const double mass = length * mean_of(section.mass.value_or(0.0), [](double value) { return value; });
     add_weight(rod, mass, constant, Pattern::constant, weights);
     add_weight(rod, mass, proportional, Pattern::proportional, weights);

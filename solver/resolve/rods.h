@@ -13,13 +13,17 @@
 namespace snapthrough {
 
 /// @brief Replaces each one-sided member by a spring of the stiffness EA / length between its nodes, along
-/// the line through them, and its weight by half at each node.
+/// the line through them, and its weight by half at each node. The length, also that which weighs, is the
+/// unstressed one where that is given, else the distance of the nodes.
 ///
 /// The springs follow those of the model, in the order of the members. A compression is a positive force of
 /// such a spring. Members, springs and foundations otherwise keep their order.
 /// @return empty: no member is one-sided
 /// @pre the model passed all checks but that of mechanisms
 [[nodiscard]] std::optional<Model> with_rods_as_springs(const Model& model);
+
+/// Length of the longest rod among the springs of a model, on the undeformed structure; 0: none is a rod.
+[[nodiscard]] double longest_rod(const std::vector<ResolvedSpring>& springs);
 
 /// @brief Inserts what was made for each rod, in the order of `rods`, into a list of what was made for each
 /// other member, so that both have the order of the members.

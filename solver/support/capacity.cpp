@@ -21,4 +21,10 @@ bool has_falling_laws(const ResolvedModel& model) {
   return std::ranges::any_of(model.springs, falls) || std::ranges::any_of(model.foundations, falls);
 }
 
+bool has_joint_laws(const ResolvedModel& model) {
+  return std::ranges::any_of(model.members, [](const ResolvedMember& member) {
+    return member.release_start_law || member.release_end_law;
+  });
+}
+
 }  // namespace snapthrough

@@ -18,4 +18,8 @@ template <class Support>
 /// reactions all at once, so that limit analysis gives a bound of the limit load and not that load.
 [[nodiscard]] bool has_falling_laws(const ResolvedModel& model);
 
+/// @brief Whether the moment of some joint at a released member end follows a law. Limit analysis takes
+/// joints as rigid, so that it gives a bound of the limit load and not that load.
+[[nodiscard]] bool has_joint_laws(const ResolvedModel& model);
+
 }  // namespace snapthrough

@@ -14,7 +14,8 @@ Direction fixed_direction(const std::array<double, 2>& along, double sign) {
 Direction direction_of(const Foundation& foundation) {
   const double sense = sense_of(foundation.reaction);
   if (foundation.direction) return fixed_direction(*foundation.direction, sense);
-  if (foundation.tangential) return {true, {}, 1.0, true};
+  if (foundation.component == FoundationComponent::rotation) return {false, {1.0, 0.0}, 1.0};
+  if (foundation.component == FoundationComponent::tangent) return {true, {}, 1.0, true};
   return {true, {}, foundation.side == Side::left ? sense : -sense};
 }
 
@@ -104,7 +105,10 @@ FoundationLaw law_of(const Foundation& foundation, const Scales& scales, std::ar
   const bool one_sided = foundation.reaction != Reaction::bilateral;
   FoundationLaw out;
   out.direction = direction_of(foundation);
-  out.law = {scales.scaled_modulus(initial_stiffness(foundation)),
+  out.rotational = foundation.component == FoundationComponent::rotation;
+  const double stiffness = initial_stiffness(foundation);
+  // a moment per length is a force
+  out.law = {out.rotational ? scales.scaled_force(stiffness) : scales.scaled_modulus(stiffness),
              one_sided ? scales.scaled_length(foundation.gap) : 0.0, one_sided};
   out.shear = scales.scaled_force(foundation.shear_stiffness);
   out.endless = foundation.ground_end == GroundEnd::endless;
@@ -121,7 +125,8 @@ FoundationLaw law_of(const Foundation& foundation, const Scales& scales, std::ar
   if (!foundation.law) return out;
   out.curve = curve_of(*foundation.law);
   out.variation = variation_of(*foundation.law);
-  set_curve(*foundation.law, out.curve.get(), scales.scaled_line_load(1.0), out.law);
+  set_curve(*foundation.law, out.curve.get(),
+            out.rotational ? scales.scaled_force(1.0) : scales.scaled_line_load(1.0), out.law);
   return out;
 }
 

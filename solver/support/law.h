@@ -126,6 +126,12 @@ template <class Support>
   return support.reaction != Reaction::bilateral && initial_stiffness(support) > 0.0;
 }
 
+/// Whether a pretension presses a one-sided spring on the undeformed structure.
+[[nodiscard]] inline bool is_tight(const ResolvedSpring& spring) {
+  return is_one_sided(spring) && -sense_of(spring.reaction) * spring.without_force > spring.gap;
+}
+[[nodiscard]] inline bool is_tight(const ResolvedFoundation&) { return false; }
+
 [[nodiscard]] bool has_one_sided_supports(const ResolvedModel& model);
 
 /// Numbers of a foundation's law along its member, over their largest values.
@@ -143,7 +149,10 @@ struct PlaceOnAxis {
 
 /// Reaction law of a foundation, scaled.
 struct FoundationLaw {
-  Direction direction;   ///< not used with a surface
+  Direction direction;  ///< not used with a surface
+  /// Whether the foundation resists the rotation of the member's sections. The rotation then stands for the
+  /// displacement along x, and `direction` is that of x: see motion().
+  bool rotational = false;
   Law law;               ///< reaction per length, with the largest stiffness and capacity along the member
   double shear = 0.0;    ///< stiffness G of the shear layer
   bool endless = false;  ///< whether the ground with a one-sided shear layer continues beyond the range
@@ -177,6 +186,14 @@ struct FoundationLaw {
     const auto d = direction.at(at.angle);
     return {u[0] * d[0] + u[1] * d[1] - value_at(law.gap, gap_along, at.fraction), d};
   }
+  /// What the law takes for the displacement (x, y) of the axis. @param u displacement (x, y, rotation)
+  [[nodiscard]] std::array<double, 2> motion(const std::array<double, 3>& u) const {
+    return rotational ? std::array{u[2], 0.0} : std::array{u[0], u[1]};
+  }
+  /// Weights of (x, y, rotation) in the penetration. @param d direction into the medium
+  [[nodiscard]] std::array<double, 3> row(const std::array<double, 2>& d) const {
+    return rotational ? std::array{0.0, 0.0, d[0]} : std::array{d[0], d[1], 0.0};
+  }
   /// Unit direction into the medium on the initial axis.
   [[nodiscard]] std::array<double, 2> initial_direction(const PlaceOnAxis& at) const {
     return surface ? surface->at(at.x).into : direction.at(at.angle);
@@ -193,8 +210,10 @@ struct SpringLaw {
   std::shared_ptr<const ReactionCurve> curve;  ///< curve of `law`; null: linear
   double length = 0.0;                         ///< length of a rod (Spring::rod); 0: fixed direction
   int ground = -1;                             ///< unknown of the ground's displacement along x; -1: at rest
-  double give = 0.0;                           ///< compliance of a stop whose force is an unknown; 0: none is
-  int force_unknown = -1;                      ///< that unknown; -1: the law gives the force
+  /// Unknown that is the displacement at which a spring with a pretension has no force; -1: zero.
+  int without_force = -1;
+  double give = 0.0;       ///< compliance of a stop whose force is an unknown; 0: none is
+  int force_unknown = -1;  ///< that unknown; -1: the law gives the force
 };
 
 /// Largest magnitude of a number along its member.

@@ -80,7 +80,11 @@ struct Regime {
   double softness = 1.0;  ///< factor on the stiffness of one-sided supports, in (0, 1]
   /// Additional bilateral stiffness without gap of one-sided supports, over their stiffness.
   double grip = 0.0;
-  bool small_displacements = false;  ///< strains linearised about the stress-free axis
+  /// Resistance of rods to displacements of one end against the other from those of `dragged_from`, in every
+  /// direction, over their stiffness.
+  double drag = 0.0;
+  const Eigen::VectorXd* dragged_from = nullptr;  ///< unknowns; given where `drag` is above zero
+  bool small_displacements = false;               ///< strains linearised about the stress-free axis
   /// Unknowns whose small displacements give the forces with which rods resist turning; null: those of the
   /// state.
   const Eigen::VectorXd* prestress = nullptr;

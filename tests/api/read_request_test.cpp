@@ -189,6 +189,21 @@ const Case kCases[] = {
      "unknown_field"},
     {"ReleaseUnknownName", "/model/members/0/release", R"({"start": ["x"]})",
      "/model/members/0/release/start/0", "unknown_value"},
+    {"ReleaseAxial", "/model/members/0/release", R"({"start": ["rotation", "axial"]})",
+     "/model/members/0/release/start/1", "unknown_value"},
+    {"ReleaseShearStiffness", "/model/members/0/release", R"({"end": {"shear": 5}})",
+     "/model/members/0/release/end/shear", "unknown_field"},
+    {"ReleaseLawMissing", "/model/members/0/release", R"({"end": {"rotation": {}}})",
+     "/model/members/0/release/end/rotation/law", "missing_field"},
+    {"ReleaseLawUnknownType", "/model/members/0/release",
+     R"({"end": {"rotation": {"law": {"type": "sine"}}}})", "/model/members/0/release/end/rotation/law/type",
+     "unknown_value"},
+    {"SpringLawUnknownType", "/model/springs/0",
+     R"({"id": "k0", "at": {"node": "b"}, "direction": [0, 1], "law": {"type": "sine"}})",
+     "/model/springs/0/law/type", "unknown_value"},
+    {"ReleaseLawVaries", "/model/members/0/release",
+     R"({"end": {"rotation": {"law": {"type": "tanh", "stiffness": 5, "capacity": {"along": [[0, 1], [1, 2]]}}}}})",
+     "/model/members/0/release/end/rotation/law/capacity", "not_supported"},
     {"ReleaseTwice", "/model/members/0/release", R"({"end": ["rotation", "rotation"]})",
      "/model/members/0/release/end/1", "duplicate"},
     {"SupportFixedMissing", "/model/supports/0/fixed", "", "/model/supports/0/fixed", "missing_field"},
@@ -389,6 +404,31 @@ TEST(ReadRequest, UnknownFieldOfOtherObjectsNamesThem) {
               HasSubstr("\"fixed\" is a field of supports"));
   EXPECT_THAT(detail_with_field("/model/analysis", json::object()),
               HasSubstr("\"analysis\" is a field of the request"));
+}
+
+/// "axial" was answered as a field of loads of type "initial_strain".
+TEST(ReadRequest, ReleaseOfAxialOrShearForceSaysHowItIsModelled) {
+  const char* hint = "only rotation is. An axial or shear release is two nodes at one place with springs";
+  EXPECT_THAT(detail_with_field("/model/members/0/release", {{"start", {{"axial", 5.0}}}}), HasSubstr(hint));
+  EXPECT_THAT(detail_with_field("/model/members/0/release", {{"start", {"shear"}}}), HasSubstr(hint));
+}
+
+/// The moment of a joint is a stiffness or a law.
+TEST(ReadRequest, ReleaseByALaw) {
+  json document = sound();
+  document["model"]["members"][0]["release"] = {
+      {"start", {{"rotation", {{"law", {{"type", "tanh"}, {"stiffness", 500.0}, {"capacity", 40.0}}}}}}},
+      {"end", {{"rotation", 7.0}}}};
+  const ReadOutcome outcome = read_request(document.dump());
+  ASSERT_THAT(outcome.findings, IsEmpty());
+  const Member& member = outcome.request->model.members[0];
+  EXPECT_TRUE(member.release_start_rotation);
+  ASSERT_TRUE(member.release_start_law);
+  EXPECT_EQ(member.release_start_law->type, ReactionLaw::Type::tanh);
+  EXPECT_EQ(member.release_start_law->stiffness.constant, 500.0);
+  EXPECT_EQ(member.release_start_law->capacity.constant, 40.0);
+  EXPECT_FALSE(member.release_end_law);
+  EXPECT_EQ(member.release_end_stiffness, 7.0);
 }
 
 /// A form of the same object is named by its type.

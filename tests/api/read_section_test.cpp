@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "api/api.h"
 #include "api/openapi/document.h"
+#include "solver/model/profiles.h"
 #include "solver/model/section_shape.h"
 #include "solver/solve.h"
 #include "tests/api/documents.h"
@@ -54,7 +56,7 @@ TEST(ShapedSection, HasTheStiffnessOfItsShape) {
        {"shape", {{"type", "i_section"}, {"depth", 10}, {"width", 8}, {"web", 1}, {"flange", 2}}}});
   EXPECT_DOUBLE_EQ(i.EA.constant, 38.0);
   EXPECT_DOUBLE_EQ(i.EI.constant, (8.0 * 1000.0 - 7.0 * 216.0) / 12.0);
-  EXPECT_DOUBLE_EQ(i.GA->constant, 0.5 * i_section({10, 8, 1, 2, 0}).shear_area);
+  EXPECT_DOUBLE_EQ(i.GA->constant, 0.5 * flanged_section({10, 8, 1, 2, 0}).shear_area);
 }
 
 TEST(ShapedSection, OfAWallIsStifferInPlaneStrain) {
@@ -80,9 +82,44 @@ TEST(ShapedSection, OfAProfileIsInTheModelsUnit) {
 TEST(ShapedSection, ProfilesAreThoseOfThePublishedInterface) {
   const json published = json::parse(openapi_document());
   const json& forms = published["components"]["schemas"]["Section"]["oneOf"];
-  const json& names = forms.back()["properties"]["profile"]["enum"];
-  ASSERT_EQ(names.size(), profiles().size());
-  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], profiles()[i].name);
+  const json& field = forms.back()["properties"]["profile"];
+  std::vector<std::string> names;
+  for (const ProfileSeries& series : profile_series())
+    for (const Profile& profile : series.profiles) names.emplace_back(profile.name);
+  EXPECT_EQ(field["x-names"], json(names));
+  for (const std::string example : field["examples"]) EXPECT_TRUE(find_profile(example)) << example;
+}
+
+TEST(ShapedSection, ProfilesHaveSeveralNames) {
+  const auto of = [](const char* name) {
+    return section_of({{"E", 2.1e8}, {"profile", name}, {"unit", "m"}, {"nu", 0.3}});
+  };
+  const Section own = of("HEA 200");  // published: 53.8 cm^2, 3692 cm^4
+  EXPECT_NEAR(own.EA.constant, 2.1e8 * 53.83e-4, 1e-4 * own.EA.constant);
+  EXPECT_NEAR(own.EI.constant, 2.1e8 * 3692e-8, 1e-4 * own.EI.constant);
+  for (const char* name : {"HE 200 A", "HEA200", "he200a", "HE200A"}) {
+    EXPECT_EQ(of(name).EI, own.EI) << name;
+    EXPECT_EQ(of(name).GA, own.GA) << name;
+  }
+  EXPECT_NEAR(of("UPE 200").EI.constant, 2.1e8 * 1909e-8, 1e-3 * 2.1e8 * 1909e-8);  // published: 1909 cm^4
+  const double printed = 204 * std::pow(0.0254, 4);                                 // AISC: 204 in^4
+  EXPECT_NEAR(of("W12X26").EI.constant, 2.1e8 * printed, 1e-9);
+}
+
+TEST(ShapedSection, UnknownProfilesAreToldNamesOfTheirSeries) {
+  const auto detail_of = [](const json& name) {
+    const json section = {{"E", 1}, {"profile", name}, {"unit", "m"}};
+    const ReadOutcome outcome = read_request(document_with(section).dump());
+    return outcome.findings.size() == 1 ? outcome.findings[0].detail
+                                        : write_findings(outcome.findings).dump();
+  };
+  EXPECT_EQ(
+      detail_of("HEB 210"),
+      R"("HEB 210" is not a rolled profile that is known here; did you mean "HEB 220", "HEB 200" or "HEB 240"?)");
+  EXPECT_EQ(
+      detail_of("Q 7"),
+      R"("Q 7" is not a rolled profile that is known here; the series are IPE, IPN, HE, HD, HL, HP, UB, UC, UPE, UPN, W)");
+  EXPECT_EQ(detail_of(200), "expected the name of a rolled profile, got number");
 }
 
 TEST(Sections, NumbersMayTaper) {

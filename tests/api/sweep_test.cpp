@@ -69,6 +69,19 @@ TEST(Sweep, GridRunsThroughTheLastParameterFastest) {
   EXPECT_THAT(points, ElementsAre(P{3, 1e-4}, P{3, 2e-4}, P{3, 3e-4}, P{5, 1e-4}, P{5, 2e-4}, P{5, 3e-4}));
 }
 
+TEST(Sweep, NumbersOfTheLawOfAJointAreParameters) {
+  const std::string capacity = "/model/members/0/release/start/rotation/law/capacity";
+  json document = sound_sweep();
+  document["model"]["members"][0]["release"]["start"] = {
+      {"rotation", {{"law", {{"type", "tanh"}, {"stiffness", 500.0}, {"capacity", 40.0}}}}}};
+  document["parameters"] = {parameter("C", capacity, {20.0, 30.0})};
+  const SweepOutcome outcome = read(document);
+  ASSERT_THAT(outcome.findings, IsEmpty());
+  const ReadOutcome second = read_request_document(outcome.sweep->document_at(1));
+  ASSERT_THAT(second.findings, IsEmpty());
+  EXPECT_EQ(second.request->model.members[0].release_start_law->capacity.constant, 30.0);
+}
+
 TEST(Sweep, ZipTakesValuesInStep) {
   json document = sound_sweep();
   document["design"] = "zip";

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -211,6 +212,23 @@ TEST(Examples, PileInYieldingSoilReachesItsLimitLoad) {
   const json result = run_example("pile_in_soil.json");
   expect_relative(critical_load_factor(result), 1.36131106, 1e-3);
   EXPECT_EQ(result.at("summary").at("critical_type"), "limit_max");
+}
+
+// Finite differences of the beam on p-y curves (pile_in_layers.py), 1e-5. The soil's accuracy by depth is
+// 1e-3, as that of the analysis.
+TEST(Examples, PileInLayersIsPushedAtItsHead) {
+  const json result = run_example("pile_in_layers.json");
+  const std::array<std::array<double, 2>, 3> expected{
+      {{0.00399837, 168.850}, {0.0269543, 1117.12}, {0.0642026, 2538.95}}};
+  ASSERT_EQ(result.at("states").size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const json& shaft = result.at("states")[i].at("members").at("shaft");
+    const json& moment = shaft.at("extremes").at("bending_moment");
+    expect_relative(shaft.at("u").at(0), expected[i][0], 2e-3);
+    expect_relative(std::max(std::abs(moment.at("min").at("value").get<double>()),
+                             std::abs(moment.at("max").at("value").get<double>())),
+                    expected[i][1], 2e-3);
+  }
 }
 
 // Converged: refined until the digits stood. The default accuracy is 1e-3.

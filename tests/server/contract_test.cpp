@@ -95,6 +95,10 @@ bool needs_several_fields(const Finding& finding) {
       {"out_of_range", std::regex("/model/sections/[0-9]+")},                       // E A, E I, G shear_area
       {"out_of_range", std::regex(".*/shape/(thickness|web|flange|root_radius)")},  // dimensions of a shape
       {"out_of_range", std::regex(".*/curve/direction")},  // direction and positions of nodes
+      // layers that follow one another, strengths, weights and water; the diameter of a section; ids
+      {"out_of_range", std::regex("/model/(soils/.*|foundations/[0-9]+/(soil|member|diameter))")},
+      {"missing_field", std::regex("/model/(soils/.*|foundations/[0-9]+(/diameter)?)")},
+      {"not_supported", std::regex("/model/foundations/[0-9]+/(soil|member|base)")},
       // as many as places
       {"out_of_range",
        std::regex("/analysis/start/members/.*/(u|v|rotation|axial_force|shear_force|bending_moment)")},

@@ -407,6 +407,7 @@ TEST_F(SweepService, WrongSweepsAreRefusedAtOnceWithPointers) {
   missing["parameters"][0]["targets"][0]["pointer"] = "/model/springs/0/stiffness";
   EXPECT_THAT(refused(missing), ElementsAre("/parameters/0/targets/0/pointer no_such_place"));
   json typed = json::parse(column_sweep(2));
+  typed["parameters"][0]["targets"][0]["pointer"] = "/model/nodes/1/x";
   typed["parameters"][0].erase("range");
   typed["parameters"][0]["values"] = {1, "stiff"};
   EXPECT_THAT(refused(typed), ElementsAre("/parameters/0/values/1 wrong_type"));

@@ -12,7 +12,7 @@ Model pile(double load) {
   Foundation friction;
   friction.id = "tz";
   friction.member = "m";
-  friction.tangential = true;
+  friction.component = FoundationComponent::tangent;
   friction.law = ReactionLaw{};
   friction.law->type = ReactionLaw::Type::table;
   friction.law->points = {{0.001, 10.0}};

@@ -59,7 +59,7 @@ TEST(Downdrag, PressesAPileAsTheClosedFormSays) {
   Model model = straight(kLength, 1.0, kEA, "", "");
   model.supports = {support("a", "y"), support("b", "y")};
   Foundation friction = winkler("m", kStiffness);
-  friction.tangential = true;
+  friction.component = FoundationComponent::tangent;
   friction.displacement =
       GroundDisplacement{AlongMember({{0.0, 0.0}, {1.0, kg}}), 0.0, Pattern::proportional};
   model.foundations = {friction};

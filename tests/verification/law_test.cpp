@@ -186,7 +186,7 @@ TEST(Law, FrictionAlongABar) {
   Model model = straight(1.0, 1.0, EA, "y", "y");
   model.loads = {force_at(at_node("a"), F, 0.0)};
   model.foundations = {winkler("m", k)};
-  model.foundations[0].tangential = true;
+  model.foundations[0].component = FoundationComponent::tangent;
   const auto ends = [&model] {
     const Result result = solve_soundly(model, static_on(fixed_mesh(16, 4), Geometry::linear));
     const MemberState& state = member_of(result.states.front(), "m");

@@ -148,7 +148,7 @@ Model half_of(const Pipe& pipe, const Buckle& buckle, double length, double fric
   bed.direction = std::array{0.0, -1.0};
   Foundation friction = winkler("m", 0.0);
   friction.id = "friction";
-  friction.tangential = true;
+  friction.component = FoundationComponent::tangent;
   friction.range = {h / length, 1.0};
   const auto law = [friction_slope](double capacity) {
     ReactionLaw out;

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "api/convert/convert.h"
-#include "api/convert/ultimate_resistance.h"
+#include "api/soil/ultimate_resistance.h"
 #include "tests/findings.h"
 
 namespace snapthrough::api {
@@ -92,7 +92,7 @@ double reaction_at(const json& parts, double fraction, double y) {
 //   C2 = sqrt 3 / (1/sqrt 3) - 1/3 = 8/3
 //   C3 = (3^4 - 1)/3 + 0.4 (1/sqrt 3) 9 = 26.666666667 + 2.078460969 = 28.74513
 TEST(SandCoefficients, AreThoseOfTheEquationsAtThirtyDegrees) {
-  const convert::SandCoefficients found = convert::sand_coefficients(30.0);
+  const soil::SandCoefficients found = soil::sand_coefficients(30.0);
   EXPECT_NEAR(found.C1, 1.911704550, 1e-8);
   EXPECT_NEAR(found.C2, 8.0 / 3.0, 1e-12);
   EXPECT_NEAR(found.C3, 28.745127636, 1e-8);
@@ -104,7 +104,7 @@ TEST(SandCoefficients, AreThoseOfTheEquationsAtThirtyDegrees) {
 //   C2 = 1.428148 / 0.700208 - 0.490291 = 1.549314
 //   C3 = 0.490291 (2.039607^4 - 1) + 0.4 x 0.363970 x 2.039607^2 = 7.994477 + 0.605646 = 8.600123
 TEST(SandCoefficients, AreThoseOfTheEquationsAtTwentyDegrees) {
-  const convert::SandCoefficients found = convert::sand_coefficients(20.0);
+  const soil::SandCoefficients found = soil::sand_coefficients(20.0);
   EXPECT_NEAR(found.C1, 0.756150, 1e-5);
   EXPECT_NEAR(found.C2, 1.549314, 1e-5);
   EXPECT_NEAR(found.C3, 8.600123, 5e-5);
@@ -249,19 +249,18 @@ TEST(ConvertSoil, StrengthOfClayGrowsLinearly) {
   json document = clay_document();
   document["layers"][0]["Su"] = {10, 50};
   expect_curves(converted(document), 20.0, {{5, 1, 150}, {9, 1, 252}}, 1e-4);
-  const convert::SoftClay clay{10.0, 50.0, 0.01, 0.5};
-  const convert::Layer layer{0.0, 20.0, 8.0, clay};
-  EXPECT_NEAR(convert::transition_depth(clay, layer, 1.0, convert::Cubic({0.0, 8.0, 0.0, 0.0})), 7.262087348,
-              1e-9);
+  const soil::SoftClay clay{10.0, 50.0, 0.01, 0.5};
+  const soil::Layer layer{0.0, 20.0, 8.0, clay};
+  EXPECT_NEAR(soil::transition_depth(clay, layer, 1.0, soil::Cubic({0.0, 8.0, 0.0, 0.0})), 7.262087348, 1e-9);
 }
 
 // The formula of homogeneous soil, also where the layer ends above X_R.
 TEST(TransitionDepth, OfHomogeneousSoilIsThatOfTheStandard) {
   for (const double thickness : {1.0, 30.0}) {
     for (const double Su : {5.0, 20.0, 100.0}) {
-      const convert::SoftClay clay{Su, Su, 0.01, 0.25};
-      const convert::Layer layer{0.0, thickness, 8.0, clay};
-      EXPECT_NEAR(convert::transition_depth(clay, layer, 1.2, convert::Cubic({0.0, 8.0, 0.0, 0.0})),
+      const soil::SoftClay clay{Su, Su, 0.01, 0.25};
+      const soil::Layer layer{0.0, thickness, 8.0, clay};
+      EXPECT_NEAR(soil::transition_depth(clay, layer, 1.2, soil::Cubic({0.0, 8.0, 0.0, 0.0})),
                   6.0 * 1.2 / (8.0 * 1.2 / Su + 0.25), 1e-10);
     }
   }
@@ -341,7 +340,7 @@ double static_reaction(const json& document, double X, double y) {
     }
     s += layer["gamma"].get<double>() * (X - from);
     if (layer["type"] == "sand") {
-      const convert::SandCoefficients C = convert::sand_coefficients(layer["phi"]);
+      const soil::SandCoefficients C = soil::sand_coefficients(layer["phi"]);
       const double capacity =
           std::max(0.9, 3.0 - 0.8 * X / D) * std::min((C.C1 * X + C.C2 * D) * s, C.C3 * D * s);
       return capacity * std::tanh(layer["k"].get<double>() * X * y / capacity);

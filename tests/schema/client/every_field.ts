@@ -17,6 +17,7 @@ const sections: Schemas['Section'][] = [
   {id: 'stiffness', EA: 1e6, EI: 10, GA: 1e5, mass: 0.1, rotary_inertia: 1e-4, expansion: 1e-5},
   {id: 'tapering', EA: {along: [[0, 1e6], [1, 2.5e5]], power: 2}, EI: {along: [[0, 10], [1, 0.625]], power: 4},
     GA: {along: [[0, 1e5], [1, 2.5e4]], power: 2}, mass: {along: [[0, 0.1], [1, 0.025]]}},
+  {id: 'rigid', EA: 'rigid', EI: 'rigid', GA: 'rigid'},
   {id: 'material', E: 2e8, A: 1e-2, I: 1e-5, nu: 0.3, shear_area: 8e-3, density: 7.85, expansion: 1e-5},
   {id: 'profile', E: 2.1e8, profile: 'IPE 300', unit: 'm', nu: 0.3, mass: 0.0422, expansion: 1e-5},
   ...shapes.map((shape, i): Schemas['Section'] => ({id: `shape ${i}`, E: 3e7, shape, G: 1.2e7, density: 2.5, expansion: 1e-5})),
@@ -45,7 +46,8 @@ const springLaws: Schemas['SpringLaw'][] = [
 
 const springs: Schemas['Spring'][] = [
   {id: 'prop', at: {node: 'a'}, direction: [0, -1], stiffness: 1e3, reaction: 'compression_only', gap: 0.01},
-  {id: 'tie', at: {node: 'a'}, to: {node: 'b'}, direction: [1, 0], stiffness: 20, reaction: 'tension_only'},
+  {id: 'tie', at: {node: 'a'}, to: {node: 'b'}, direction: [1, 0], stiffness: 20, reaction: 'tension_only',
+   pretension: {force: 3}},
   {id: 'turning', at: {member: 'beam', fraction: 1}, direction: 'rotation', stiffness: 5},
   ...springLaws.map((law, i): Schemas['Spring'] => ({id: `law ${i}`, at: {node: 'a'}, direction: 'rotation', law})),
 ];
@@ -64,6 +66,7 @@ const foundations: Schemas['Foundation'][] = [
    direction: 'normal', side: 'right'},
   {id: 'below', member: 'beam', stiffness: 1e4, direction: [0, -1]},
   {id: 'deeper', member: 'beam', stiffness: varying, component: 'tangent'},
+  {id: 'fastenings', member: 'beam', stiffness: varying, component: 'rotation'},
   ...foundationLaws.map((law, i): Schemas['Foundation'] => ({
     id: `law ${i}`, member: 'beam', law, reaction: 'compression_only', side: 'left', direction: 'normal', gap: 0.01})),
 ];
@@ -82,6 +85,27 @@ foundations.push(
     ...outlines.map((outline, i): Schemas['Foundation'] => ({
       id: `outline ${i}`, member: 'beam', stiffness: 'rigid', reaction: 'compression_only', range: [0, 1], outline})),
     {id: 'yields', member: 'beam', law: foundationLaws[0]!, reaction: 'compression_only', range: [0, 1], outline: outlines[0]!});
+foundations.push(
+    {id: 'pile', member: 'beam', soil: 'site', ground_level: 0, diameter: 1.2, multiplier: {p: 0.8, y: 1.5}, base: true,
+     displacement: {x: 0.01}});
+
+const layer = {top: 0, bottom: 5, unit_weight: 9};
+const soils: Schemas['Soil'][] = [
+  {id: 'site', water_table: 2, water_unit_weight: 9.81, scour: {general: 1, local: 0.5}, loading: 'cyclic', accuracy: 0.01,
+   layers: [
+     {...layer, type: 'api_sand', phi: 35, k: 2e4, end_bearing: 5e3,
+      axial: {type: 'api_tz_sand', friction: [5, 80], peak_displacement: 0.0025}},
+     {...layer, type: 'api_sand', C1: 2, C2: 3, C3: 30, k: 2e4},
+     {...layer, type: 'soft_clay', Su: [20, 45], eps50: 0.01, J: 0.5, axial: {type: 'api_tz_clay', friction: 30, residual: 0.8}},
+     {...layer, type: 'soft_clay_matlock', Su: 20, eps50: 0.01, J: 0.5, start: 'api_points', first_point: 0.1},
+     {...layer, type: 'stiff_clay', Su: 80, eps50: 0.005, J: 0.5, cycles: 100, first_point: 0.1},
+     {...layer, type: 'stiff_clay_free_water', Su: 80, eps50: 0.005, k: [1e5, 2e5]},
+     {...layer, type: 'reese_sand', phi: 35, k: 2e4},
+     {...layer, type: 'pisa_clay', Su: 80, G0: [4e4, 8e4]},
+     {...layer, type: 'pisa_sand', relative_density: 0.7, G0: 5e4},
+     {...layer, type: 'weak_rock', q_u: 2e3, E_ir: 5e5, RQD: 50, k_rm: 5e-4},
+     {...layer, type: 'liquefied_sand', metre: 1, kilonewton: 1}]},
+];
 springs.push({id: 'follows', at: {node: 'a'}, direction: [0, 1], stiffness: 3,
               displacement: {x: 0, y: -0.01, rotation: 0, pattern: 'constant'}});
 springs.push({id: 'stop', at: {node: 'a'}, direction: [1, 0], stiffness: 'rigid', reaction: 'compression_only'});
@@ -117,9 +141,11 @@ const model: Schemas['Model'] = {
     ...curves.map((curve, i): Schemas['Member'] => ({
       id: `beam ${i}`, start: 'a', end: 'b', section: 'stiffness', curve,
       release: {start: ['rotation'], end: {rotation: 5000}}})),
-    {id: 'brace', start: 'a', end: 'b', section: 'stiffness', reaction: 'tension_only'},
+    ...springLaws.map((law, i): Schemas['Member'] => ({
+      id: `joint ${i}`, start: 'a', end: 'b', section: 'stiffness', release: {start: {rotation: {law}}, end: {rotation: {law}}}})),
+    {id: 'brace', start: 'a', end: 'b', section: 'stiffness', reaction: 'tension_only', pretension: {unstressed_length: 4.9}},
   ],
-  supports, springs, foundations, loads, load_cases: loadCases, imperfections,
+  supports, springs, soils, foundations, loads, load_cases: loadCases, imperfections,
   masses: location.map((at) => ({at, mass: 2, inertia: 0.1})), damping: {mass: 0.1, stiffness: 1e-3},
   monitors: location.map((at, i) => ({id: `m${i}`, at, component: 'y'})),
 };
@@ -137,7 +163,7 @@ const analyses: Schemas['Analysis'][] = discretizations.flatMap((discretization)
   step: {initial: 0.1, min: 1e-6, max: 0.5, direction: -1},
   stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100, negative_eigenvalues: 4},
   branches: {follow: 'all', limit: 3},
-  output: {states: one, points_per_member: 51, path_points: 200, extremes: true, frequencies: 3},
+  output: {states: one, points_per_member: 51, path_points: 200, extremes: true, stiffness_at: location, frequencies: 3},
   sensitivities: ['/model/nodes/0/x'], koiter: true,
 })));
 

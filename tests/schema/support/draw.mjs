@@ -42,7 +42,7 @@ export class Drawer {
   candidate(schema) {
     const at = dereferenced(schema);
     if ('const' in at) return at.const;
-    if (at.enum) return this.pick(at.enum);
+    if (at.enum ?? at['x-names']) return this.pick(at.enum ?? at['x-names']);
     const forms = at.oneOf ?? at.anyOf;
     if (forms) return this.draw(this.pick(forms));
     const type = Array.isArray(at.type) ? this.pick(at.type) : at.type;
@@ -108,7 +108,7 @@ export class Drawer {
     const {model, analysis} = request;
     const often = (change) => { if (this.random() < 29 / 30) change(); };
     const size = () => (this.random() - 0.5) * 20;
-    for (const list of ['nodes', 'sections', 'members', 'springs', 'foundations', 'load_cases', 'monitors']) {
+    for (const list of ['nodes', 'sections', 'members', 'springs', 'soils', 'foundations', 'load_cases', 'monitors']) {
       often(() => (model[list] ?? []).forEach((one, i) => { one.id = `${[...one.id].slice(0, 190).join('')}#${i}`; }));
     }
     while (model.nodes.length < 2) model.nodes.push({id: `n${model.nodes.length}`, x: 0, y: 0});
@@ -130,6 +130,7 @@ export class Drawer {
     for (const list of [model.foundations ?? [], loads, model.imperfections ?? []]) {
       often(() => list.forEach((one) => { if ('member' in one) one.member = member(); }));
     }
+    often(() => this.agreeSoils(model));
     often(() => this.agreeSections(model));
     often(() => this.agree(model, analysis));
     return request;
@@ -142,6 +143,23 @@ export class Drawer {
     model.supports.push({node: first.id, fixed: ['x', 'y', 'rotation']});
     for (const one of model.supports) delete one.displacement, delete one.pattern;
     for (const one of model.members) delete one.release, delete one.reaction;
+  }
+
+  /** Layers from the surface to below all members, and straight members in them. */
+  agreeSoils(model) {
+    for (const soil of model.soils ?? []) {
+      for (const field of ['water_table', 'water_unit_weight', 'scour']) delete soil[field];
+      soil.layers.forEach((layer, i) => {
+        Object.assign(layer, {top: i, bottom: i === soil.layers.length - 1 ? 1000 + i : i + 1});
+        for (const field of ['Su', 'G0', 'k', 'q_u', 'E_ir', 'metre', 'kilonewton']) if (field in layer) layer[field] = 20;
+        if (layer.axial) layer.axial.friction = 1;
+      });
+    }
+    const straight = model.members.filter(({curve}) => !curve || curve.type === 'line');
+    const inSoil = (one) => Object.assign(one, {
+      soil: this.pick(model.soils).id, member: this.pick(straight).id, ground_level: 100, diameter: 1, base: false});
+    if (model.soils?.length && straight.length) model.foundations?.filter(({soil}) => soil !== undefined).forEach(inSoil);
+    else if (model.foundations) model.foundations = model.foundations.filter(({soil}) => soil === undefined);
   }
 
   /** Dimensions that go together, one of two fields, what the loads need. */

@@ -12,7 +12,7 @@ const ajv = new Ajv2020({
   formats: {'date-time': /^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z$/},
 });
 // discriminator: which of oneOf it is; oneOf says the same, and that of ajv takes no mapping
-for (const keyword of ['x-unit', 'x-ids', 'x-analysis', 'x-column', 'x-default', 'discriminator']) ajv.addKeyword({keyword});
+for (const keyword of ['x-unit', 'x-ids', 'x-analysis', 'x-column', 'x-default', 'x-names', 'discriminator']) ajv.addKeyword({keyword});
 ajv.addKeyword({keyword: 'components'});
 ajv.addSchema({$id: 'snapthrough', components: document.components});
 

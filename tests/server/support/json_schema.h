@@ -69,6 +69,9 @@ class Schemas {
         return make(schema[choice][random() % schema[choice].size()], random);
       }
     }
+    if (schema.contains("examples")) {
+      return schema["examples"][random() % schema["examples"].size()];
+    }
     const json& types = schema.at("type");
     const std::string type = types.is_array() ? types[random() % types.size()] : types;
     if (type == "object") {
@@ -193,8 +196,8 @@ class Schemas {
   [[nodiscard]] bool holds(const json& schema, const std::string& keyword, const json& rule,
                            const json& value) const {
     static const std::set<std::string> kNotes{
-        "title", "description", "format",           "default",       "x-default", "x-unit",
-        "x-ids", "x-analysis",  "contentMediaType", "contentSchema", "x-column",  "discriminator"};
+        "title", "description", "format",           "default",       "x-default", "x-unit",        "examples",
+        "x-ids", "x-analysis",  "contentMediaType", "contentSchema", "x-column",  "discriminator", "x-names"};
     static const std::set<std::string> kOfNumbers{"minimum", "maximum", "exclusiveMinimum",
                                                   "exclusiveMaximum"};
     static const std::set<std::string> kOfStrings{"minLength", "maxLength", "pattern"};

@@ -119,7 +119,7 @@ const Case kStructureCases[] = {
     {"NodeUnreached", SPOIL(m.nodes.push_back({"far", 9.0, 9.0})), "/model/nodes/3", "unreached_node"},
     {"SectionIdTwice", SPOIL(m.sections.push_back(m.sections[0])), "/model/sections/1/id", "duplicate_id"},
     {"AxialStiffnessZero", SPOIL(m.sections[0].EA = 0.0), "/model/sections/0/EA", "out_of_range"},
-    {"AxialStiffnessInfinite", SPOIL(m.sections[0].EA = kInf), "/model/sections/0/EA", "out_of_range"},
+    {"AxialStiffnessMinusInfinite", SPOIL(m.sections[0].EA = -kInf), "/model/sections/0/EA", "out_of_range"},
     {"BendingStiffnessNegative", SPOIL(m.sections[0].EI = -1.0), "/model/sections/0/EI", "out_of_range"},
     {"ShearStiffnessZero", SPOIL(m.sections[0].GA = 0.0), "/model/sections/0/GA", "out_of_range"},
     {"MemberIdTwice", SPOIL(m.members.push_back({"ab", "a", "c", "steel", {}})), "/model/members/2/id",
@@ -223,6 +223,14 @@ const Case kSupportCases[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Support, CheckRule, ::testing::ValuesIn(kSupportCases), case_name);
 
+ReactionLaw joint_law(AlongMember stiffness, double capacity) {
+  ReactionLaw law;
+  law.type = ReactionLaw::Type::tanh;
+  law.stiffness = std::move(stiffness);
+  law.capacity = capacity;
+  return law;
+}
+
 const Case kMemberCases[] = {
     {"MassNegative", SPOIL(m.sections[0].mass = -1.0), "/model/sections/0/mass", "out_of_range"},
     {"TaperWithoutStiffness", SPOIL(m.sections[0].EI = AlongMember({{0.0, 1.0}, {1.0, 0.0}})),
@@ -234,6 +242,15 @@ const Case kMemberCases[] = {
     {"ExpansionNan", SPOIL(m.sections[0].expansion = kNan), "/model/sections/0/expansion", "out_of_range"},
     {"JointStiffnessNegative", SPOIL(m.members[1].release_end_stiffness = -1.0),
      "/model/members/1/release/end/rotation", "out_of_range"},
+    {"JointLawWithoutCapacity", SPOIL(m.members[1].release_end_law = joint_law(2.0, 0.0)),
+     "/model/members/1/release/end/rotation/law/capacity", "out_of_range"},
+    {"JointLawVaries",
+     SPOIL(m.members[0].release_start_law = joint_law(AlongMember({{0.0, 1.0}, {1.0, 2.0}}), 1.0)),
+     "/model/members/0/release/start/rotation/law/stiffness", "not_supported"},
+    {"RodWithAJointLaw",
+     SPOIL(m.springs.clear(); m.members[1].reaction = Reaction::tension_only;
+           m.members[1].curve = LineCurve{}; m.members[1].release_start_law = joint_law(2.0, 1.0)),
+     "/model/members/1/release/start/rotation", "not_supported"},
     {"ParabolaDirectionZero", SPOIL(use_curve(m, ParabolaCurve{0.5, std::array{0.0, 0.0}})),
      "/model/members/0/curve/direction", "zero_direction"},
     {"ParabolaAlongItsChord",

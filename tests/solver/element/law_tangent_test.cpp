@@ -50,7 +50,7 @@ Model with_laws(ReactionLaw::Type type) {
   push.gap = 0.02;
   Foundation along = both;
   along.id = "along";
-  along.tangential = true;
+  along.component = FoundationComponent::tangent;
   push.displacement = GroundDisplacement{AlongMember({{0.0, 0.1}, {0.6, -0.2}}), 0.3, Pattern::proportional};
   along.displacement = GroundDisplacement{-0.1, AlongMember({{0.2, 0.0}, {1.0, 0.4}}), Pattern::constant};
   model.foundations = {both, push, along};

@@ -17,6 +17,12 @@
 namespace snapthrough {
 namespace {
 
+OutputOptions with_points(int points) {
+  OutputOptions out;
+  out.points_per_member = points;
+  return out;
+}
+
 /// The state at a load factor of the model, in equilibrium to rounding.
 struct Solved {
   Structure structure;
@@ -70,7 +76,7 @@ TEST_P(SectionForcesOn, BalanceTheLoadsBeyondEachSection) {
   constexpr double kTrapezoid = 1e-5;
   const Model model = cantilever();
   const Solved at = solve_at(model, testing::fixed_mesh(GetParam(), 6), 1.0);
-  const State state = make_state(at.structure, at.y, at.lambda, kPoints);
+  const State state = make_state(at.structure, at.y, at.lambda, with_points(kPoints));
   const MemberState& m = state.members[0];
   EXPECT_GT(m.rotation.back(), 0.6) << "displacements are large";
   const double h = 2.0 / (kPoints - 1);
@@ -101,7 +107,7 @@ TEST_P(SectionForcesOn, BalanceTheLoadsBeyondEachSection) {
 TEST(State, HasReactionsThatBalanceTheLoads) {
   const Model model = cantilever();
   const Solved at = solve_at(model, testing::fixed_mesh(8, 6), 1.0);
-  const State state = make_state(at.structure, at.y, at.lambda, 11);
+  const State state = make_state(at.structure, at.y, at.lambda, with_points(11));
   ASSERT_EQ(state.supports.size(), 1U);
   EXPECT_NEAR(state.supports[0].fx, 0.5 - 0.2 - 0.2, 1e-9);
   EXPECT_NEAR(state.supports[0].fy, -1.1 - 0.7 - 1.2, 1e-9);
@@ -116,7 +122,7 @@ TEST(State, HasTheStrainsOfItsSectionForces) {
   constexpr int kPoints = 401;
   const Model model = cantilever();
   const Solved at = solve_at(model, testing::fixed_mesh(8, 6), 1.0);
-  const MemberState m = make_state(at.structure, at.y, at.lambda, kPoints).members[0];
+  const MemberState m = make_state(at.structure, at.y, at.lambda, with_points(kPoints)).members[0];
   const double h = 2.0 / (kPoints - 1);
   const auto slope = [h](const std::vector<double>& f, std::size_t i) {
     return (f[i - 2] - 8.0 * f[i - 1] + 8.0 * f[i + 1] - f[i + 2]) / (12.0 * h);
@@ -148,7 +154,7 @@ Model on_ground() {
 TEST(State, HasContactWhereItsReactionIs) {
   const Model model = on_ground();
   const Solved at = solve_at(model, testing::fixed_mesh(20, 6), 1.0);
-  const State state = make_state(at.structure, at.y, at.lambda, 2001);
+  const State state = make_state(at.structure, at.y, at.lambda, with_points(2001));
   const FoundationState& soil = state.foundations[0];
   ASSERT_EQ(soil.contact.size(), 1U);
   const auto [from, to] = soil.contact[0];

@@ -58,8 +58,8 @@ export function fieldsAt(description: Description, path: readonly string[]): Sug
 export function wordsAt(description: Description, path: readonly string[]): Suggestion[] {
   const words = new Set<string>();
   for (const node of nodesAt(description, path)) {
-    const listed = Array.isArray(node["enum"]) ? (node["enum"] as unknown[]) : [node["const"]];
-    for (const word of listed) if (typeof word === "string") words.add(word);
+    const listed = ["enum", "x-names"].flatMap((key) => (Array.isArray(node[key]) ? (node[key] as unknown[]) : []));
+    for (const word of [...listed, node["const"]]) if (typeof word === "string") words.add(word);
   }
   return [...words].map((text) => ({ text, detail: "" }));
 }

@@ -8,6 +8,7 @@ import { motionsOf, type FrequencySource } from "./chart/frequencies";
 import { drawnLaw, lawLabels, type LawInput } from "./chart/law";
 import { kSections, sectionLines, type SectionQuantity, type SectionsInput } from "./chart/sections";
 import { columnLabel, type Table } from "./chart/sweep";
+import { withSoil } from "./soil";
 
 export type Cell = string | number | null;
 
@@ -81,7 +82,8 @@ const kColumns: readonly { list: "x" | "y" | "u" | "v"; name: string }[] = [
 const kForces: readonly SectionQuantity[] = ["rotation", "N", "Q", "M"];
 
 /** One row a point of every member: place, displacements, internal forces, and the reactions of the bases along it. */
-export function sectionTable(input: SectionsInput): FigureTable {
+export function sectionTable(given: SectionsInput): FigureTable {
+  const input = { ...given, ...withSoil(given.model, given.state) };
   const length = unitOf(input.model.units, "length");
   const bases = (input.model.foundations ?? []).filter((item) => input.state.foundations[item.id]);
   const columns = ["member", withUnit("s", length), ...kColumns.map(({ name }) => withUnit(name, length)),

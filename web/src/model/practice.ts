@@ -114,6 +114,26 @@ export const kPractice: readonly Problem[] = [
       { name: "Axial stiffness of the rods", unit: "kN", min: 4000, max: 400000, log: true, targets: [{ pointer: "/model/sections/1/EA" }] },
     ],
   }),
+  practice("guyed_mast", {
+    heading: "Guyed mast with pretensioned ropes", picture: "guyed_mast_shape", choice: { kind: "critical" },
+    text: "Two ropes hold a mast and cannot push. Which load does its head bear in the wind before the lee rope is slack?",
+    sliders: [
+      {
+        name: "Pretension of the ropes", unit: "kN", min: 0.5, max: 10, log: false, step: 0.5,
+        targets: [{ pointer: "/model/members/1/pretension/force" }, { pointer: "/model/members/2/pretension/force" }],
+      },
+      { name: "Wind", unit: "kN/m", min: 0.01, max: 0.25, log: false, step: 0.01, targets: [{ pointer: "/model/loads/1/force/0" }] },
+      { name: "Axial stiffness of the ropes", unit: "kN", min: 100, max: 1000, log: true, targets: [{ pointer: "/model/sections/1/EA" }] },
+    ],
+  }),
+  practice("ropeway", {
+    heading: "Ropeway with a carriage", picture: "ropeway_shape", choice: kAtEnd,
+    text: "A rope that cannot bend hangs between two supports. How deep does it hang under a carriage, and how much does it pull?",
+    sliders: [
+      { name: "Load of the carriage", unit: "kN", min: 0, max: 20, log: false, step: 1, targets: [{ pointer: "/model/loads/1/force/1", scale: -1 }] },
+      { name: "Axial stiffness of the rope", unit: "kN", min: 10000, max: 100000, log: true, targets: [{ pointer: "/model/sections/0/EA" }] },
+    ],
+  }),
   practice("riser", {
     heading: "Touchdown of a riser", picture: "riser_shape", choice: kAtEnd,
     text: "A vessel lifts a pipe off the seabed. Where does the pipe touch down, and how is it bent there?",

@@ -127,7 +127,7 @@ function titleOf(item: Record<string, unknown>, index: number): string {
 
 /** The choices that an item has: friction along a member is bilateral, and neither it nor a fixed direction has a side. */
 function choicesOf(list: string, fields: Record<string, unknown>): [string, readonly string[]][] {
-  if (fields["component"] === "tangent") return [];
+  if (fields["component"] === "tangent" || fields["component"] === "rotation") return [];
   return Object.entries(kChoices[list] ?? {}).filter(([field]) => field !== "side" || !Array.isArray(fields["direction"]));
 }
 

@@ -91,10 +91,11 @@ function dotsOf(law: DrawnLaw, curve: ReactionCurve): LawPoint[] {
   return law.senses.flatMap((sense) => inSense(sense, points));
 }
 
-/** What w and p are called, with their units: a foundation's p is a force per length, a rotational spring's a moment. */
+/** What w and p are called, with their units: a foundation's p is a force or moment per length, a rotational spring's a moment. */
 export function lawLabels({ list, support, units }: LawInput): { w: string; p: string; unit: string } {
-  const turns = list === "springs" && support["direction"] === "rotation";
-  const unit = unitOf(units, turns ? "moment" : list === "springs" ? "force" : "line_load");
+  const turns = list === "springs" ? support["direction"] === "rotation" : support["component"] === "rotation";
+  // a moment per length is a force
+  const unit = unitOf(units, turns && list === "springs" ? "moment" : turns || list === "springs" ? "force" : "line_load");
   const beyond = typeof support["gap"] === "object" && support["gap"] !== null ? " beyond the gap" : "";
   return {
     w: withUnit((turns ? "rotation w" : "displacement w") + beyond, unitOf(units, turns ? "rotation" : "length")),

@@ -7,6 +7,7 @@ import { at, interpolate, last } from "../geometry";
 import { Occupancy, placeLabel, textWidth } from "../labels";
 import { formatNumber, formatWithUnit, unitOf, type Quantity, type Units } from "../numbers";
 import { withPeaks, type Line } from "../peaks";
+import { withSoil } from "../soil";
 import { coordinate, figure, group, label, line, pathData, shape, type Anchor, type Pixel, type Shape, type Size } from "../shape";
 import { kBetweenTexts, makeScale, place, ticks, valueAt, type Scale } from "./axes";
 import { thinned } from "./thin";
@@ -39,6 +40,15 @@ export const kSections: Record<SectionQuantity, Described> = {
   reaction: { name: "base reaction r", unit: "line_load" },
 };
 
+/** The states of a member's foundations whose reaction is a force per length: those against rotation have a moment. */
+function reactionsOf(input: SectionsInput, member: string): State["foundations"][string][] {
+  const { model, state } = withSoil(input.model, input.state);
+  return (model.foundations ?? []).flatMap((foundation) => {
+    const turns = "component" in foundation && foundation.component === "rotation";
+    return foundation.member === member && !turns ? state.foundations[foundation.id] ?? [] : [];
+  });
+}
+
 /** The listed values of a quantity along a member, one line for each foundation with reactions. */
 export function sectionLines(input: SectionsInput, member: string, quantity: SectionQuantity): Line[] {
   const state = input.state.members[member];
@@ -48,10 +58,7 @@ export function sectionLines(input: SectionsInput, member: string, quantity: Sec
     case "Q": return [{ s: state.s, values: state.shear_force }];
     case "M": return [{ s: state.s, values: state.bending_moment }];
     case "rotation": return [{ s: state.s, values: state.rotation }];
-    case "reaction": return (input.model.foundations ?? []).flatMap((foundation) => {
-      const found = input.state.foundations[foundation.id];
-      return foundation.member === member && found ? [{ s: found.s, values: found.reaction }] : [];
-    });
+    case "reaction": return reactionsOf(input, member).map(({ s, reaction }) => ({ s, values: reaction }));
   }
 }
 
@@ -65,8 +72,7 @@ export function drawnLines(input: SectionsInput, member: string, quantity: Secti
     const peaks = input.state.members[member]?.extremes?.[kPeaks[quantity]];
     return lines.map((line) => withPeaks(line, peaks));
   }
-  const states = (input.model.foundations ?? []).flatMap(({ id, member: own }) =>
-    (own === member ? input.state.foundations[id] ?? [] : []));
+  const states = reactionsOf(input, member);
   return lines.map((line, i) => withPeaks(line, states[i]?.extremes));
 }
 

@@ -5,6 +5,7 @@ import {
   at, interpolate, last, leftNormals, memberAxis, type Axis, type Point,
 } from "../geometry";
 import type { Pixel, Size } from "../shape";
+import { withSoil, type GivenFoundation, type GivenModel } from "../soil";
 import { largestGap, wayInto, type Way } from "./medium";
 
 type Schemas = components["schemas"];
@@ -12,7 +13,7 @@ export type Model = Schemas["Model"];
 export type State = Schemas["State"];
 export type Mode = Schemas["Mode"];
 export type Location = Schemas["Location"];
-export type Foundation = Schemas["Foundation"];
+export type Foundation = GivenFoundation;
 
 /**
  * What is drawn. Lengths in the model's unit, x to the right, y up; signs as docs/results.md (Axes and signs).
@@ -59,7 +60,8 @@ export interface DrawnMember {
 }
 
 export interface Scene {
-  input: DrawingInput;
+  /** As given, but for foundations that name a soil. */
+  input: Omit<DrawingInput, "model"> & { model: GivenModel };
   members: ReadonlyMap<string, DrawnMember>;
   /** A node's undeformed and deformed place, and the members that meet there with the tangents that leave it. */
   joints: ReadonlyMap<string, Joint>;
@@ -134,7 +136,8 @@ function reachOfMode({ mode, quadrature }: DrawingInput, members: ReadonlyMap<st
   });
 }
 
-export function makeScene(input: DrawingInput): Scene {
+export function makeScene(given: DrawingInput): Scene {
+  const input = { ...given, ...withSoil(given.model, given.state) };
   const nodes = new Map(input.model.nodes.map((node) => [node.id, node]));
   const members = new Map<string, DrawnMember>();
   const joints = new Map<string, Joint>();
@@ -225,9 +228,9 @@ export function zoomed(view: View, factor: number, about: Pixel, moved: Pixel = 
   };
 }
 
-/** Foundations with ground beside the member: all but those along its tangent, which are friction on its surface. */
+/** Foundations with ground beside the member: all but those along its tangent and against rotation, which act on its surface. */
 export function foundationsWithGround(scene: Scene): Foundation[] {
-  return (scene.input.model.foundations ?? []).filter((item) => !("component" in item && item.component === "tangent"));
+  return (scene.input.model.foundations ?? []).filter((item) => !("component" in item && item.component !== "normal"));
 }
 
 /** The way into a foundation's medium from a place of its member. @param s arc length of the initial axis */

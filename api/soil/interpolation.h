@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "api/convert/ultimate_resistance.h"
+#include "api/soil/ultimate_resistance.h"
 
-namespace snapthrough::api::convert {
+namespace snapthrough::api::soil {
 
 /// @brief Returns depths from < ... < to, of which each two neighbours satisfy `fits`.
 ///
@@ -36,4 +36,4 @@ namespace snapthrough::api::convert {
 /// Returns the resistance of consecutive pieces at a depth. @pre the pieces contain the depth
 [[nodiscard]] double value_at(std::span<const Piece> pieces, double depth);
 
-}  // namespace snapthrough::api::convert
+}  // namespace snapthrough::api::soil

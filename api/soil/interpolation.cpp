@@ -1,9 +1,9 @@
-#include "api/convert/interpolation.h"
+#include "api/soil/interpolation.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace snapthrough::api::convert {
+namespace snapthrough::api::soil {
 
 namespace {
 
@@ -74,4 +74,4 @@ double value_at(std::span<const Piece> pieces, double depth) {
   return resistance_at(found == pieces.end() ? pieces.back() : *found, depth);
 }
 
-}  // namespace snapthrough::api::convert
+}  // namespace snapthrough::api::soil

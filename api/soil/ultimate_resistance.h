@@ -10,9 +10,9 @@
 #include <array>
 #include <vector>
 
-#include "api/convert/soil.h"
+#include "api/soil/layers.h"
 
-namespace snapthrough::api::convert {
+namespace snapthrough::api::soil {
 
 /// Accepted friction angles in degrees. The figure of API RP 2GEO covers 20 to 40.
 inline constexpr double kLeastPhi = 20.0;
@@ -86,4 +86,4 @@ struct Contact {
 [[nodiscard]] double transition_depth(const SoftClay& clay, const Layer& layer, double D,
                                       const Cubic& stress);
 
-}  // namespace snapthrough::api::convert
+}  // namespace snapthrough::api::soil

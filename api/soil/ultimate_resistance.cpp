@@ -1,11 +1,11 @@
-#include "api/convert/ultimate_resistance.h"
+#include "api/soil/ultimate_resistance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-namespace snapthrough::api::convert {
+namespace snapthrough::api::soil {
 
 namespace {
 
@@ -149,4 +149,4 @@ double transition_depth(const SoftClay& clay, const Layer& layer, double D, cons
   return from;
 }
 
-}  // namespace snapthrough::api::convert
+}  // namespace snapthrough::api::soil
