@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Stress test: N random models from a seed on, each solved and checked by mechanics of its own.
-#   scripts/stress.sh N [first_seed] [first|broad|laws|media|soil]
+#   scripts/stress.sh N [first_seed] [first|broad|laws|media|soil|members]
 # SECONDS_PER_MODEL bounds the processor time of one solution (60). See docs/stress.md.
 set -u
 cd "$(dirname "$0")/.."
-count=${1:?usage: scripts/stress.sh N [first_seed] [first|broad|laws|media|soil]}
+count=${1:?usage: scripts/stress.sh N [first_seed] [first|broad|laws|media|soil|members]}
 first=${2:-0}
 draw=${3:-broad}
 bound=${SECONDS_PER_MODEL:-60}

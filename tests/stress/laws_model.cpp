@@ -196,7 +196,7 @@ void LawsDrawer::foundation(const Member& member, bool tangential) {
   Foundation base;
   base.id = (tangential ? "friction " : "soil ") + member.id;
   base.member = member.id;
-  base.tangential = tangential;
+  base.component = tangential ? FoundationComponent::tangent : FoundationComponent::normal;
   base.range = range();
   base.reaction = tangential ? Reaction::bilateral : reaction();
   const double modulus = force_ / (length_ * length_) * random_.decades(0.0, 5.0);

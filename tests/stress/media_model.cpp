@@ -165,7 +165,7 @@ std::optional<Outline> Widener::outline(const Foundation& base) {
 }
 
 void Widener::foundation(Foundation& base) {
-  if (base.tangential || base.shear_stiffness > 0.0) return;
+  if (base.component != FoundationComponent::normal || base.shear_stiffness > 0.0) return;
   if (random_.chance(0.5)) {
     base.outline = outline(base);
     if (base.outline) {

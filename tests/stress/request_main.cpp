@@ -1,5 +1,5 @@
-/// Writes the request of a seed, to be solved by itself: stress_request first|broad|laws|media|soil|frame
-/// SEED > request.json
+/// Writes the request of a seed, to be solved by itself: stress_request
+/// first|broad|laws|media|soil|members|frame SEED > request.json
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   const std::string name = argc == 3 ? argv[1] : "";
   const std::optional<Draw> draw = draw_named(name);
   if (!draw && name != "frame") {
-    std::fprintf(stderr, "usage: stress_request first|broad|laws|media|soil|frame SEED\n");
+    std::fprintf(stderr, "usage: stress_request first|broad|laws|media|soil|members|frame SEED\n");
     return 2;
   }
   const unsigned long seed = std::strtoul(argv[2], nullptr, 10);

@@ -68,37 +68,17 @@ Json written_taper(const AlongMember& number) {
   return out;
 }
 
+/// A stiffness of a section, which may be infinite.
+Json written_stiffness(const AlongMember& number) {
+  if (!number.varies() && std::isinf(number.constant)) return "rigid";
+  return written_taper(number);
+}
+
 Json written(const Section& s) {
-  Json out{{"id", s.id}, {"EA", written_taper(s.EA)}, {"EI", written_taper(s.EI)}};
+  Json out{{"id", s.id}, {"EA", written_stiffness(s.EA)}, {"EI", written_stiffness(s.EI)}};
   if (s.GA) out["GA"] = written_taper(*s.GA);
   if (s.mass) out["mass"] = written_taper(*s.mass);
   if (s.expansion) out["expansion"] = *s.expansion;
-  return out;
-}
-
-/// Release of a member's end: a hinge, or a joint of a stiffness.
-Json released(double stiffness) {
-  if (stiffness == 0.0) return {"rotation"};
-  return {{"rotation", stiffness}};
-}
-
-Json written(const Member& m) {
-  Json out{{"id", m.id}, {"start", m.start}, {"end", m.end}, {"section", m.section}};
-  out["curve"] = std::visit([](const auto& curve) { return written(curve); }, m.curve);
-  if (m.release_start_rotation) out["release"]["start"] = released(m.release_start_stiffness);
-  if (m.release_end_rotation) out["release"]["end"] = released(m.release_end_stiffness);
-  if (is_rod(m)) out["reaction"] = name_of(m.reaction);
-  return out;
-}
-
-Json written(const Support& s) {
-  Json out{{"node", s.node}, {"fixed", Json::array()}, {"angle_degrees", s.angle_degrees}};
-  if (s.x) out["fixed"].push_back("x");
-  if (s.y) out["fixed"].push_back("y");
-  if (s.rotation) out["fixed"].push_back("rotation");
-  if (const auto& d = s.displacement)
-    out["displacement"] = {
-        {"x", d->x}, {"y", d->y}, {"rotation", d->rotation}, {"pattern", name_of(d->pattern)}};
   return out;
 }
 
@@ -119,6 +99,40 @@ Json written(const ReactionLaw& law) {
   return out;
 }
 
+/// Release of a member's end: a hinge, or a joint of a stiffness or a law.
+Json released(double stiffness, const std::optional<ReactionLaw>& law) {
+  if (law) return {{"rotation", {{"law", written(*law)}}}};
+  if (stiffness == 0.0) return {"rotation"};
+  return {{"rotation", stiffness}};
+}
+
+Json written(const Pretension& p) {
+  if (p.force) return {{"force", *p.force}};
+  return {{"unstressed_length", p.unstressed_length.value()}};
+}
+
+Json written(const Member& m) {
+  Json out{{"id", m.id}, {"start", m.start}, {"end", m.end}, {"section", m.section}};
+  out["curve"] = std::visit([](const auto& curve) { return written(curve); }, m.curve);
+  if (m.release_start_rotation)
+    out["release"]["start"] = released(m.release_start_stiffness, m.release_start_law);
+  if (m.release_end_rotation) out["release"]["end"] = released(m.release_end_stiffness, m.release_end_law);
+  if (is_rod(m)) out["reaction"] = name_of(m.reaction);
+  if (m.pretension) out["pretension"] = written(*m.pretension);
+  return out;
+}
+
+Json written(const Support& s) {
+  Json out{{"node", s.node}, {"fixed", Json::array()}, {"angle_degrees", s.angle_degrees}};
+  if (s.x) out["fixed"].push_back("x");
+  if (s.y) out["fixed"].push_back("y");
+  if (s.rotation) out["fixed"].push_back("rotation");
+  if (const auto& d = s.displacement)
+    out["displacement"] = {
+        {"x", d->x}, {"y", d->y}, {"rotation", d->rotation}, {"pattern", name_of(d->pattern)}};
+  return out;
+}
+
 /// Writes the field `stiffness` of a support, or its field `law`. Requests have a linear law that varies
 /// along a member as `stiffness`.
 template <typename Support>
@@ -135,8 +149,10 @@ Json written(const Spring& s) {
   Json out{{"id", s.id}, {"at", written(s.at)}, {"direction", "rotation"}};
   add_stiffness(out, s);
   if (s.direction) out["direction"] = *s.direction;
+  if (s.to) out["to"] = written(*s.to);
   out["reaction"] = name_of(s.reaction);
   out["gap"] = s.gap;
+  if (s.pretension) out["pretension"] = written(*s.pretension);
   return out;
 }
 
@@ -169,8 +185,8 @@ Json written(const Foundation& f) {
   out["gap"] = written(f.gap, f.gap_along);
   if (f.direction)
     out["direction"] = *f.direction;
-  else if (f.tangential)
-    out["component"] = "tangent";
+  else if (f.component != FoundationComponent::normal)
+    out["component"] = named(f.component, {"normal", "tangent", "rotation"});
   else
     out["side"] = name_of(f.side);
   return out;

@@ -112,7 +112,6 @@ class Check {
   };
   [[nodiscard]] Slope imperfection_at(std::size_t index) const;
   void reactions();
-  void springs(const State& state, const RodState& at);
   void finite_series(std::span<const double> values, const std::string& what);
   [[nodiscard]] double distance(const RodState& a, const RodState& b) const;
   /// @param what begins with the check's name and a colon; a few failures of each check are kept
@@ -156,7 +155,8 @@ void Check::finite() {
     if (!std::isfinite(p.load_factor) || !std::isfinite(p.arc_length)) fail("nan: critical point");
 }
 
-/// Root mean square over the members of the difference in displacement and displacement gradient.
+/// Root mean square over the members of the difference in displacement and displacement gradient. Rods count
+/// with the displacements of their ends.
 double Check::distance(const RodState& a, const RodState& b) const {
   double sum = 0.0;
   double total = 0.0;
@@ -169,6 +169,14 @@ double Check::distance(const RodState& a, const RodState& b) const {
     sum += h * 0.5 * (d.row(0).squaredNorm() + end.squaredNorm());
     for (Eigen::Index q = 0; q + 1 < d.rows(); ++q) sum += h * weights[q] * d.row(q + 1).squaredNorm();
     total += h;
+  }
+  for (const RodBar& bar : rod_.bars) {
+    const double length = bar.along.norm();
+    for (const int node : {bar.start, bar.end}) {
+      const auto n = static_cast<std::size_t>(node);
+      sum += 0.5 * length * (a.nodes[n] - b.nodes[n]).head<2>().squaredNorm();
+    }
+    total += length;
   }
   return std::sqrt(sum / total);
 }
@@ -265,9 +273,8 @@ void Check::reactions() {
   constexpr double kBalance = 1e-9;
   constexpr double kNoForce = 1e-9;  // of EI / length^2: where nothing acts, stiff bases press by rounding
   double length = 0.0;
-  double bending = 0.0;
+  const double bending = largest_bending(model_);
   for (const auto& axis : rod_.axes) length = std::max(length, axis->length());
-  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.largest());
   for (std::size_t i = 0; i < result_.states.size(); ++i) {
     const State& state = result_.states[i];
     const ReactionSum sum = reaction_sum(model_, state, analysis_.geometry);
@@ -286,12 +293,14 @@ void Check::contact(const State& state, const RodState& at) {
   for (std::size_t f = 0; f < state.foundations.size(); ++f) {
     const Foundation& base = model_.foundations[f];
     const bool one_sided = base.reaction != Reaction::bilateral;
-    if (base.shear_stiffness > 0.0 || !(base.law || (one_sided && base.stiffness > 0.0))) continue;
+    const bool turns = base.component == FoundationComponent::rotation;
+    if (base.shear_stiffness > 0.0 || !(base.law || turns || (one_sided && base.stiffness > 0.0))) continue;
     const FoundationState& said = state.foundations[f];
     const int m = index_of(beams_.members, base.member);
-    double x = rod_.extent;
-    for (const double v : state.members[rod_.members[m].place].x) x = std::max(x, std::abs(v) / rod_.length);
-    const double noise = 1e3 * kEps * x * rod_.length;  // of a fitted displacement
+    const MemberState& member = state.members[rod_.members[m].place];
+    double x = turns ? 1.0 : rod_.extent * rod_.length;
+    for (const double v : turns ? member.rotation : member.x) x = std::max(x, std::abs(v));
+    const double noise = 1e3 * kEps * x;  // of a fitted displacement or rotation
     for (std::size_t i = 0; i < said.s.size(); ++i) contact_at(said, base, i, noise, at);
   }
 }
@@ -299,7 +308,7 @@ void Check::contact(const State& state, const RodState& at) {
 /// Least and largest reaction of a law that the rounding of its depth and of its place on the member allows.
 /// The law is monotone between its kinks, so that both lie at an end of the range of depths or at a kink
 /// inside.
-/// @param noise rounding of the depth, in the model's unit of length
+/// @param noise rounding of the depth, in the model's units
 std::array<double, 2> reactions_near(const LawAlong& law, double fraction, bool one_sided, double depth,
                                      double noise) {
   constexpr double kPlace = 1e-14;  // rounding of a fraction
@@ -332,10 +341,13 @@ void Check::contact_at(const FoundationState& said, const Foundation& base, std:
   const RodElement& element = rod_.elements[e];
   const double xi = (fraction - element.from) / (element.to - element.from);
   const RodStrip strip = strip_of(rod_, base);
-  const double depth = depth_at(strip, site_of(rod_, element, strip, xi), at.elements[e].u) * rod_.length;
+  const double depth = depth_at(strip, site_of(rod_, element, strip, xi), at.elements[e].u) * strip.unit;
   const double reaction = (base.reaction == Reaction::tension_only ? -1.0 : 1.0) * said.reaction[i];
   const auto [least, most] =
       reactions_near(acting_law(rod_, element, base), fraction, strip.one_sided, depth, noise);
+  if (base.component == FoundationComponent::rotation && std::abs(said.displacement[i] - depth) > noise)
+    fail("complementarity: base " + base.id + " says the rotation " + text(said.displacement[i]) + " for " +
+         text(depth));
   const double rounding = 16.0 * kEps * std::abs(reaction);
   if (reaction < least - rounding || reaction > most + rounding)
     fail("complementarity: base " + base.id + " reacts with " + text(reaction) + " at depth " + text(depth));

@@ -16,12 +16,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Unit direction in which a base on this strip reacts, at xi of the element.
+/// Unit vector in (x, y, rotation) in which a base on this strip reacts, at xi of the element.
 Vector3d direction_of(const RodModel& rod, const RodElement& element, const RodStrip& strip, double xi) {
+  if (strip.component == FoundationComponent::rotation) return {0.0, 0.0, 1.0};
   if (strip.fixed) return {(*strip.fixed)[0], (*strip.fixed)[1], 0.0};
   const AxisCurve& axis = *rod.axes[element.member];
   const double angle = axis.at(axis.length() * fraction_at(element, xi)).angle;
-  if (strip.tangential) return {std::cos(angle), std::sin(angle), 0.0};
+  if (strip.component == FoundationComponent::tangent) return {std::cos(angle), std::sin(angle), 0.0};
   return {-strip.sign * std::sin(angle), strip.sign * std::cos(angle), 0.0};
 }
 
@@ -51,6 +52,9 @@ class Maker {
   void element_spring(RodElement& element, const Spring& spring) const;
   void member_load(RodElement& element, const Load& load) const;
   [[nodiscard]] RodReaction reaction_of(const Spring& spring) const;
+  [[nodiscard]] double without_force(const Spring& spring) const;
+  void pretension(RodElement& element, const Member& member) const;
+  [[nodiscard]] RodJoint joint(bool turns, double stiffness, const std::optional<ReactionLaw>& law) const;
   [[nodiscard]] const Section& section_of(const RodElement& element) const {
     return model_.sections[static_cast<std::size_t>(
         index_of(model_.sections, model_.members[static_cast<std::size_t>(element.member)].section))];
@@ -80,10 +84,8 @@ std::array<double, 2> part_of(const RodElement& element, const std::array<double
 void Maker::scales() {
   rod_.axes = make_axes(resolve(model_));
   rod_.length = 0.0;
-  double bending = 0.0;
   for (const auto& axis : rod_.axes) rod_.length = std::max(rod_.length, axis->length());
-  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.largest());
-  rod_.force = bending / (rod_.length * rod_.length);
+  rod_.force = largest_bending(model_) / (rod_.length * rod_.length);
   rod_.origin = {model_.nodes.front().x, model_.nodes.front().y};
 }
 
@@ -192,9 +194,9 @@ void Maker::springs_of_base(RodElement& element, const RodStrip& strip, bool lum
     const RodSite site = site_of(rod_, element, strip, xi);
     RodSpring spring;
     spring.row = functional_at(rod_, element, xi, site.direction);
-    spring.reaction = {strip.law.at(fraction_at(element, xi)), rod_.length,
-                       element.h * rule.weights[i] * (lumped ? 1.0 : width) * rod_.length / rod_.force,
-                       site.gap, strip.one_sided};
+    spring.reaction = {strip.law.at(fraction_at(element, xi)), strip.unit,
+                       element.h * rule.weights[i] * (lumped ? 1.0 : width) * strip.share, site.gap,
+                       strip.one_sided};
     element.springs.push_back(spring);
   }
 }
@@ -280,8 +282,10 @@ bool Maker::holds(const RodElement& element, const Location& at) const {
   return at.fraction >= element.from - 1e-9 && (last || at.fraction < element.to - 1e-9);
 }
 
+double sense_of(const Spring& spring) { return spring.reaction == Reaction::tension_only ? -1.0 : 1.0; }
+
 Vector3d spring_row(const Spring& spring) {
-  const double sign = spring.reaction == Reaction::tension_only ? -1.0 : 1.0;
+  const double sign = sense_of(spring);
   if (!spring.direction) return {0.0, 0.0, sign};
   const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
   return {sign * (*spring.direction)[0] / size, sign * (*spring.direction)[1] / size, 0.0};
@@ -293,18 +297,35 @@ RodReaction Maker::reaction_of(const Spring& spring) const {
   if (std::isinf(spring.stiffness)) {
     // the stiffness of its place counts for the inertia alone
     constexpr double kStop = 1e8;
-    double members = 0.0;
+    double members = 12.0 * rod_.force / rod_.length;
     for (const Section& section : model_.sections)
-      members = std::max(members, (section.EA.largest() + 12.0 * rod_.force) / rod_.length);
+      if (std::isfinite(section.EA.largest()))
+        members = std::max(members, (section.EA.largest() + 12.0 * rod_.force) / rod_.length);
     out.law.stiffness = kStop * members * (spring.direction ? 1.0 : rod_.length * rod_.length);
-    out.stop = RodStop{static_cast<std::size_t>(index_of(model_.springs, spring.id)),
-                       spring.reaction == Reaction::tension_only ? -1.0 : 1.0};
+    out.stop = RodStop{static_cast<std::size_t>(index_of(model_.springs, spring.id)), sense_of(spring)};
   }
   out.unit = spring.direction ? rod_.length : 1.0;
   out.share = spring.direction ? 1.0 / rod_.force : 1.0 / (rod_.force * rod_.length);
   out.one_sided = spring.reaction != Reaction::bilateral;
   if (out.one_sided) out.gap = spring.gap / out.unit;
+  if (spring.pretension) out.without_force = sense_of(spring) * without_force(spring) / out.unit;
   return out;
+}
+
+/// Displacement of `at` relative to `to`, along the direction, at which a pretensioned spring has no force. A
+/// spring of the stiffness k with the tension T loses it where its nodes come closer by T / k, one of the
+/// unstressed length Lu between nodes at the distance L where they come closer by L - Lu. A displacement
+/// along the direction brings `at` closer to `to` where the direction points to `to`, and away from it
+/// otherwise.
+double Maker::without_force(const Spring& spring) const {
+  const Node& at = model_.nodes[static_cast<std::size_t>(index_of(model_.nodes, spring.at.node))];
+  const Node& to = model_.nodes[static_cast<std::size_t>(index_of(model_.nodes, spring.to->node))];
+  const Eigen::Vector2d between(to.x - at.x, to.y - at.y);
+  const Eigen::Vector2d direction((*spring.direction)[0], (*spring.direction)[1]);
+  const Pretension& given = *spring.pretension;
+  const double closer =
+      given.force ? *given.force / spring.stiffness : between.norm() - *given.unstressed_length;
+  return direction.dot(between) > 0.0 ? closer : -closer;
 }
 
 double xi_of(const RodElement& element, const Location& at) {
@@ -340,20 +361,43 @@ void Maker::element_actions(RodElement& element) {
     if (foundation.member == model_.members[element.member].id) base(element, foundation);
   for (const Spring& spring : model_.springs) element_spring(element, spring);
   for (const Load& load : model_.loads) member_load(element, load);
+  const Member& member = model_.members[static_cast<std::size_t>(element.member)];
+  if (member.pretension) pretension(element, member);
+}
+
+/// Adds the strain that a straight member has without force: (Lu - L) / L with the length L between its nodes
+/// and the unstressed length Lu, or -F / EA with the force F at the length L.
+void Maker::pretension(RodElement& element, const Member& member) const {
+  InitialStrain out;
+  out.member = member.id;
+  out.pattern = Pattern::constant;
+  const double length = rod_.axes[element.member]->length();
+  out.axial = member.pretension->force ? -*member.pretension->force / section_of(element).EA.constant
+                                       : (*member.pretension->unstressed_length - length) / length;
+  strain(element, out, 1.0, 0.0);
+}
+
+RodJoint Maker::joint(bool turns, double stiffness, const std::optional<ReactionLaw>& law) const {
+  RodJoint out;
+  out.turns = turns;
+  out.resists = turns && (law || stiffness > 0.0);
+  out.reaction.law = (law ? LawAlong(*law) : LawAlong(stiffness)).at(0.0);
+  out.reaction.share = 1.0 / (rod_.force * rod_.length);
+  return out;
 }
 
 void Maker::members() {
   const int p = rod_.lagrange.order();
-  const double turn = 1.0 / (rod_.force * rod_.length);
   const ResolvedModel resolved = resolve(model_);
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const Member& member = model_.members[m];
-    rod_.members.push_back({index_of(model_.nodes, member.start),
-                            index_of(model_.nodes, member.end),
-                            0,
-                            {member.release_start_rotation, turn * member.release_start_stiffness},
-                            {member.release_end_rotation, turn * member.release_end_stiffness},
-                            {}});
+    rod_.members.push_back(
+        {index_of(model_.nodes, member.start),
+         index_of(model_.nodes, member.end),
+         0,
+         joint(member.release_start_rotation, member.release_start_stiffness, member.release_start_law),
+         joint(member.release_end_rotation, member.release_end_stiffness, member.release_end_law),
+         {}});
     stress_free_.emplace_back(resolved, static_cast<int>(m), rod_.axes[m], std::vector<CubicSpline>{});
     const Section& section = model_.sections[index_of(model_.sections, member.section)];
     for (int e = rod_.mesh.first[m]; e < rod_.mesh.first[m + 1]; ++e) {
@@ -391,10 +435,12 @@ void Maker::nodes() {
   }
   for (const Load& load : model_.loads)
     if (const auto* point = std::get_if<PointLoad>(&load)) point_load(*point);
-  for (const Spring& spring : model_.springs) {
+  for (std::size_t i = 0; i < model_.springs.size(); ++i) {
+    const Spring& spring = model_.springs[i];
     if (spring.at.node.empty()) continue;
-    rod_.node_springs.push_back(
-        {index_of(model_.nodes, spring.at.node), spring_row(spring), reaction_of(spring)});
+    rod_.node_springs.push_back({index_of(model_.nodes, spring.at.node),
+                                 spring.to ? index_of(model_.nodes, spring.to->node) : -1, spring_row(spring),
+                                 sense_of(spring), reaction_of(spring), i});
   }
 }
 
@@ -416,8 +462,8 @@ double mean_compliance(const AlongMember& EA) {
   return out;
 }
 
-/// Rods of the whole model, whose weight acts on their nodes. The strain of a rod is that of its mean
-/// compliance.
+/// Rods of the whole model, whose weight acts on their nodes. The lengthening of a rod is that of its mean
+/// compliance; compliance and mass are those of its length without force where that is given.
 void Maker::bars(const Model& whole) {
   std::size_t beams = 0;
   for (std::size_t m = 0; m < whole.members.size(); ++m) {
@@ -432,11 +478,18 @@ void Maker::bars(const Model& whole) {
     bar.end = index_of(whole.nodes, member.end);
     bar.along = {(whole.nodes[bar.end].x - whole.nodes[bar.start].x) / rod_.length,
                  (whole.nodes[bar.end].y - whole.nodes[bar.start].y) / rod_.length};
-    bar.stiffness = 1.0 / (mean_compliance(section.EA) * rod_.force);
+    double length = bar.along.norm();  // of its stiffness and mass
+    if (member.pretension && member.pretension->unstressed_length) {
+      length = *member.pretension->unstressed_length / rod_.length;
+      bar.stretched = bar.along.norm() - length;
+    }
+    bar.stiffness = 1.0 / (mean_compliance(section.EA) * rod_.force * length);
+    if (member.pretension && member.pretension->force)
+      bar.stretched = *member.pretension->force / (rod_.force * bar.stiffness);
     bar.sign = member.reaction == Reaction::tension_only ? 1 : -1;
     bar.member = m;
     rod_.bars.push_back(bar);
-    const double half = 0.5 * section.mass.value_or(0.0).constant * bar.along.norm() * rod_.length;
+    const double half = 0.5 * section.mass.value_or(0.0).constant * length * rod_.length;
     for (const Load& load : whole.loads)
       if (const auto* weight = std::get_if<SelfWeight>(&load))
         for (const int node : {bar.start, bar.end})
@@ -489,6 +542,13 @@ void Maker::sampling() {
 
 }  // namespace
 
+double largest_bending(const Model& model) {
+  double out = 0.0;
+  for (const Section& section : model.sections)
+    if (std::isfinite(section.EI.largest())) out = std::max(out, section.EI.largest());
+  return out;
+}
+
 Functional functional_at(const RodModel& rod, const RodElement& element, double xi,
                          const Eigen::Vector3d& row) {
   return {row, row * (element.h * rod.lagrange.integrals(xi)).transpose()};
@@ -516,7 +576,10 @@ RodStrip strip_of(const RodModel& rod, const Foundation& base) {
   out.gap = out.one_sided ? base.gap / rod.length : 0.0;
   for (const auto& [fraction, gap] : base.gap_along) out.gap_along.emplace_back(fraction, gap / rod.length);
   out.sign = pull * (base.side == Side::left ? 1 : -1);
-  out.tangential = base.tangential;
+  out.component = base.component;
+  const bool turns = base.component == FoundationComponent::rotation;
+  out.unit = turns ? 1.0 : rod.length;
+  out.share = (turns ? 1.0 : rod.length) / rod.force;
   if (base.outline) out.surface = surface_of(*base.outline, rod.origin, rod.length);
   out.takes_planes = rod.mesh.foundation == FoundationRule::lumped;
   if (!base.direction) return out;

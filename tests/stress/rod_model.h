@@ -36,7 +36,7 @@ struct RodStop {
   double sense = 1.0;      ///< of the reported force
 };
 
-/// Law of a discrete support: the force is share * law(unit * penetration).
+/// Law of a discrete support or joint: the force is share * law(unit * penetration).
 struct RodReaction {
   RodLaw law;
   double unit = 1.0;   ///< model's units of one of the checker's
@@ -44,11 +44,14 @@ struct RodReaction {
   double gap = 0.0;
   bool one_sided = false;
   std::optional<RodStop> stop = {};
+  double without_force = 0.0;  ///< displacement at which a pretension leaves no force
 
   /// @param w displacement into the medium
-  [[nodiscard]] bool acts(double w) const { return !one_sided || w > gap; }
-  [[nodiscard]] double force(double w) const { return share * law.force(unit * (w - gap)); }
-  [[nodiscard]] double slope(double w) const { return share * unit * law.slope(unit * (w - gap)); }
+  [[nodiscard]] bool acts(double w) const { return !one_sided || w > without_force + gap; }
+  [[nodiscard]] double force(double w) const { return share * law.force(penetration(w)); }
+  [[nodiscard]] double slope(double w) const { return share * unit * law.slope(penetration(w)); }
+  /// What the law takes for its displacement, in the model's units.
+  [[nodiscard]] double penetration(double w) const { return unit * (w - without_force - gap); }
 };
 
 struct RodSpring {
@@ -71,8 +74,10 @@ struct RodStrip {
   double gap = 0.0, lo = 0.0, hi = 1.0;
   std::vector<std::pair<double, double>> gap_along;
   bool one_sided = false;
-  int sign = 1;                                ///< of the left normal, towards which it reacts
-  bool tangential = false;                     ///< along the tangent instead of the normal
+  int sign = 1;  ///< of the left normal, towards which it reacts
+  FoundationComponent component = FoundationComponent::normal;
+  double unit = 1.0;   ///< model's units of one of the depth's: of a length, or of an angle
+  double share = 1.0;  ///< checker's force or moment by one of the law over one of the checker's length
   std::optional<std::array<double, 2>> fixed;  ///< instead of both
   std::shared_ptr<const RodSurface> surface;   ///< instead of all of them, and of the gap
   bool takes_planes = false;   ///< of the surface it takes the planes that touch it beside the initial axis
@@ -99,7 +104,7 @@ struct RodElement {
   int member = 0;
   double from = 0.0, to = 1.0, h = 0.0;
   VectorXd angle, tx, ty, e0, g0, stretch;  ///< at the Gauss points
-  VectorXd axial, shear, bending;           ///< compliances there
+  VectorXd axial, shear, bending;           ///< compliances there; 0: rigid
   bool shears = false;                      ///< whether the section can shear
   double softest = 0.0;                     ///< bending compliance at the end of less stiffness
   std::vector<RodSpring> springs;
@@ -119,25 +124,37 @@ struct RodNode {
   std::array<Eigen::Vector3d, 2> load{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
+/// Spring at a node; its displacement is row . (u of `node` - u of `to`).
 struct NodeSpring {
   int node = 0;
+  int to = -1;  ///< node at its other end; -1: the ground
   Eigen::Vector3d row = Eigen::Vector3d::Zero();
+  double sense = 1.0;  ///< of the model's direction along the row
   RodReaction reaction;
+  std::size_t place = 0;  ///< in the model's list
 };
 
 /// Rod between two nodes, which takes a compression or a tension only.
 struct RodBar {
   int start = 0, end = 0;
   Eigen::Vector2d along = Eigen::Vector2d::Zero();  ///< from its start to its end, unloaded
-  double stiffness = 0.0;                           ///< EA
-  int sign = 1;                                     ///< of the force that it takes; 1 is a tension
-  std::size_t member = 0;                           ///< of the model
+  double stiffness = 0.0;                           ///< force of a lengthening of one
+  double stretched = 0.0;  ///< length between its nodes, unloaded, less its length without force
+  int sign = 1;            ///< of the force that it takes; 1 is a tension
+  std::size_t member = 0;  ///< of the model
+
+  /// Force at a distance of its nodes, a tension positive.
+  [[nodiscard]] double force_at(double distance) const {
+    const double force = stiffness * (distance - along.norm() + stretched);
+    return sign * force > 0.0 ? force : 0.0;
+  }
 };
 
 /// Joint of a member's end and its node.
 struct RodJoint {
-  bool turns = false;      ///< the end has a rotation of its own
-  double stiffness = 0.0;  ///< moment of a relative rotation of one
+  bool turns = false;    ///< the end has a rotation of its own
+  bool resists = false;  ///< the joint is no hinge
+  RodReaction reaction;  ///< moment by the rotation of the end relative to the node
 };
 
 struct RodMember {
@@ -169,6 +186,9 @@ struct RodModel {
 /// its path.
 /// @param told where the elements of a path after the first end; those of the first are the request's
 [[nodiscard]] RodModel make_rod_model(const Model& model, const Analysis& analysis, const MeshReport& told);
+
+/// Largest EI of the sections that are not rigid.
+[[nodiscard]] double largest_bending(const Model& model);
 
 /// @brief Functional of the displacement at xi, times the components of `row`.
 [[nodiscard]] Functional functional_at(const RodModel& rod, const RodElement& element, double xi,

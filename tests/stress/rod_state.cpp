@@ -37,7 +37,8 @@ struct StripPiece {
 /// End of a member with a rotation of its own.
 struct TurningEnd {
   int node;
-  double stiffness;  ///< of the joint
+  const RodJoint& joint;
+  double& stiffness;  ///< of the joint in this state
   double rotation;
   double moment;  ///< derivative of the member's energy by the rotation
   double noise;   ///< of the moment
@@ -66,6 +67,7 @@ class Evaluation {
                                    const ElementState& at) const;
   [[nodiscard]] ActingSupport stopped(const RodReaction& reaction, double w, double moved) const;
   void node_springs(NodeSums& sums);
+  void reported_spring(const NodeSpring& spring, double w, double force);
   void bars(NodeSums& sums);
   void anchors();
   [[nodiscard]] double rounding_of(const RodElement& element, const Functional& row) const;
@@ -216,10 +218,9 @@ double kink_at(const LawAlong& law, double fraction, std::size_t kink) {
 /// Parts of a strip between the places at which it begins or ceases to act or its law has a kink.
 /// @param depth displacement into the medium beyond the gap, at xi of the element; depths: at the strip's
 /// samples
-/// @param length model's units of one of the depth's
 template <class Depth>
 std::vector<std::array<double, 2>> smooth_parts(const RodElement& element, const RodStrip& strip,
-                                                const Samples& depths, const Depth& depth, double length) {
+                                                const Samples& depths, const Depth& depth) {
   std::vector<double> ends{strip.lo, strip.hi};
   const auto add = [&ends](const std::vector<double>& found) {
     ends.insert(ends.end(), found.begin(), found.end());
@@ -232,7 +233,7 @@ std::vector<std::array<double, 2>> smooth_parts(const RodElement& element, const
     for (const double sense : {1.0, -1.0}) {
       if (strip.one_sided && sense < 0.0) continue;
       const auto beyond = [&](double at, double xi) {
-        return sense * at - kink_at(strip.law, fraction_at(element, xi), k) / length;
+        return sense * at - kink_at(strip.law, fraction_at(element, xi), k) / strip.unit;
       };
       Samples moved = depths;
       for (std::size_t i = 0; i < moved.x.size(); ++i) moved.g[i] = beyond(depths.g[i], moved.x[i]);
@@ -261,7 +262,7 @@ void Evaluation::collect_strip(const RodElement& element, const RodStrip& strip,
   constexpr int kMostHalvings = 12;
   const bool is_linear = strip.law.is_linear() && !strip.surface;
   const Rule rule = is_linear ? gauss(std::max(p + 2, 5)) : gauss(p + 6);
-  for (const auto& [from, to] : smooth_parts(element, strip, depths, depth, rod_.length))
+  for (const auto& [from, to] : smooth_parts(element, strip, depths, depth))
     collect_piece({element, strip, from, to, rule}, is_linear ? 0 : kMostHalvings, out);
 }
 
@@ -273,8 +274,8 @@ std::vector<ActingSupport> Evaluation::supports_on(const StripPiece& piece, cons
     const double xi = piece.from + width * piece.rule.points[i];
     const StripDepth depth =
         depth_with_derivatives(piece.strip, site_of(rod_, element, piece.strip, xi), at.u);
-    const double share = element.h * width * piece.rule.weights[i] * rod_.length / rod_.force;
-    const RodReaction reaction{piece.strip.law.at(fraction_at(element, xi)), rod_.length, share, 0.0,
+    const double share = element.h * width * piece.rule.weights[i] * piece.strip.share;
+    const RodReaction reaction{piece.strip.law.at(fraction_at(element, xi)), piece.strip.unit, share, 0.0,
                                piece.strip.one_sided};
     const double force = reaction.force(depth.value);
     const double near = depth.value + closer_ * rounding_of(element, depth.row);
@@ -429,10 +430,14 @@ void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m
   }
   for (Eigen::Index q = 0; q < p; ++q) at.M[q] -= r.v(2, q) / (element.h * rule.weights[q]);
   double noise = 0.0;
-  for (const ActingSupport& support : at.acting)
-    if (!support.is_stop) noise += std::abs(support.stiffness) * rounding_of(element, support.row);
+  double couples = 0.0;
+  for (const ActingSupport& support : at.acting) {
+    if (support.is_stop) continue;
+    const bool turns = support.row.a.head<2>().isZero(0.0) && support.row.a[2] != 0.0;
+    (turns ? couples : noise) += std::abs(support.stiffness) * rounding_of(element, support.row);
+  }
   at.force_noise += noise + force_share_ * (m.head<2>().norm() + r.a.head<2>().norm());
-  at.moment_noise += at.force_noise * element.h + force_share_ * std::abs(m[2]) +
+  at.moment_noise += couples + at.force_noise * element.h + force_share_ * std::abs(m[2]) +
                      m.head<2>().norm() * (noise_ + element.h * at.gradient_noise.maxCoeff());
   m -= r.a;
   m[2] -= turn.sum();
@@ -527,47 +532,68 @@ void Evaluation::meet_nodes(int m, NodeSums& sums) {
   const VectorXd weights =
       last.h * Eigen::Map<const VectorXd>(rod_.lagrange.rule().weights.data(), rod_.lagrange.order());
   const Vector3d end = at.u.row(0).transpose() + at.u.bottomRows(weights.size()).transpose() * weights;
-  const auto meet = [&](int node, const Vector3d& u, const RodJoint& joint, const Vector3d& force) {
+  const auto meet = [&](int node, const Vector3d& u, bool at_end, const Vector3d& force) {
+    const RodJoint& joint = at_end ? member.at_end : member.at_start;
     Vector3d& known = out_.nodes[node];
     for (int c = 0; c < (joint.turns ? 2 : 3); ++c) {
       if (std::isnan(known[c])) known[c] = u[c];
       note(known[c] - u[c], kConverged + 100.0 * (noise_ + turn_noise_), "joint " + std::to_string(node));
     }
     sums.force[node] += force;
-    if (joint.turns) sums.ends.push_back({node, joint.stiffness, u[2], force[2], begin.moment_noise});
+    double& stiffness = out_.joint_stiffness[static_cast<std::size_t>(m)][at_end ? 1 : 0];
+    if (joint.turns) sums.ends.push_back({node, joint, stiffness, u[2], force[2], begin.moment_noise});
   };
-  meet(member.start, begin.u.row(0).transpose(), member.at_start, -out_.start_force[m]);
-  meet(member.end, end, member.at_end, out_.end_force[m]);
+  meet(member.start, begin.u.row(0).transpose(), false, -out_.start_force[m]);
+  meet(member.end, end, true, out_.end_force[m]);
   sums.noise = std::max(sums.noise, begin.force_noise + begin.moment_noise);
+}
+
+/// Where a falling function is zero, by halving an interval that grows around a place until it has the zero.
+template <class Function>
+double zero_of_falling(const Function& f, double near) {
+  constexpr int kDoublings = 60;
+  constexpr int kHalvings = 120;
+  double width = 1e-3;
+  for (int it = 0; it < kDoublings && !(f(near - width) >= 0.0 && f(near + width) <= 0.0); ++it) width *= 2.0;
+  double lo = near - width;
+  double hi = near + width;
+  for (int it = 0; it < kHalvings; ++it) {
+    const double middle = 0.5 * (lo + hi);
+    (f(middle) > 0.0 ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
 }
 
 /// Rotations of nodes all of whose members are released: that of the support, or that with which the moments
 /// of the joints carry the node's load. Where all members are hinged nothing shows the rotation.
+/// @pre the laws of the joints at such a node do not fall, since the rotation would not be the only one
 void Evaluation::turn_nodes(const NodeSums& sums) {
   for (std::size_t n = 0; n < rod_.nodes.size(); ++n) {
     double& rotation = out_.nodes[n][2];
     if (!std::isnan(rotation)) continue;
-    double stiffness = 0.0;
-    double moment = load_of(rod_.nodes[n].load)[2];
-    for (const TurningEnd& end : sums.ends) {
-      if (end.node != static_cast<int>(n)) continue;
-      stiffness += end.stiffness;
-      moment += end.stiffness * end.rotation;
-    }
+    std::vector<const TurningEnd*> joined;
+    for (const TurningEnd& end : sums.ends)
+      if (end.node == static_cast<int>(n) && end.joint.resists) joined.push_back(&end);
+    const auto moment = [&](double at) {
+      double sum = load_of(rod_.nodes[n].load)[2];
+      for (const TurningEnd* end : joined) sum += end->joint.reaction.force(end->rotation - at);
+      return sum;
+    };
     if (rod_.nodes[n].fixed[2])
       rotation = load_of(rod_.nodes[n].displacement)[2];
-    else if (stiffness > 0.0)
-      rotation = moment / stiffness;
+    else if (!joined.empty())
+      rotation = zero_of_falling(moment, joined.front()->rotation);
   }
 }
 
 /// Moments of the ends of members that turn against their nodes.
 void Evaluation::joint_moments(const NodeSums& sums) {
   for (const TurningEnd& end : sums.ends) {
-    const double node = out_.nodes[end.node][2];
-    const double resisted = end.stiffness > 0.0 ? end.stiffness * (end.rotation - node) : 0.0;
+    const double relative = end.joint.resists ? end.rotation - out_.nodes[end.node][2] : 0.0;
+    end.stiffness = end.joint.reaction.slope(relative);
+    const double resisted = end.joint.reaction.force(relative);
     note(end.moment + resisted,
-         kConverged * (1.0 + largest_force_) + end.noise + end.stiffness * turn_noise_ * 100.0,
+         kConverged * (1.0 + largest_force_) + end.noise + std::abs(end.stiffness) * turn_noise_ * 100.0,
          "moment of a released end");
   }
 }
@@ -597,22 +623,48 @@ void Evaluation::node_equations(std::size_t n, const NodeSums& sums) {
 
 void Evaluation::node_springs(NodeSums& sums) {
   out_.node_stiffness.assign(rod_.node_springs.size(), 0.0);
+  const auto displacement = [this](int node) -> Vector3d {
+    return out_.nodes[node].array().isNaN().select(0.0, out_.nodes[node]);
+  };
   for (std::size_t i = 0; i < rod_.node_springs.size(); ++i) {
-    const auto& [node, row, reaction] = rod_.node_springs[i];
-    const Vector3d u = out_.nodes[node].array().isNaN().select(0.0, out_.nodes[node]);
-    const double w = row.dot(u);
+    const NodeSpring& spring = rod_.node_springs[i];
+    const RodReaction& reaction = spring.reaction;
+    Vector3d u = displacement(spring.node);
+    if (spring.to >= 0) u -= displacement(spring.to);
+    const double w = spring.row.dot(u);
     const double noise = (noise_ + turn_noise_) * 100.0;
+    double force = 0.0;
     if (reaction.stop) {
       const ActingSupport acting = stopped(reaction, w, w + closer_ * noise);
-      note(entered(reaction, acting, w), kStopGivesWay, "stop at node " + std::to_string(node));
-      sums.force[node] += acting.force * row;
+      note(entered(reaction, acting, w), kStopGivesWay, "stop at node " + std::to_string(spring.node));
+      force = acting.force;
       out_.node_stiffness[i] = acting.stiffness;
     } else if (reaction.acts(w)) {
+      force = reaction.force(w);
       out_.node_stiffness[i] = reaction.slope(w);
-      sums.noise = std::max(sums.noise, reaction.slope(w) * noise);
-      sums.force[node] += reaction.force(w) * row;
+      sums.noise = std::max(sums.noise, std::abs(reaction.slope(w)) * noise);
     }
+    sums.force[spring.node] += force * spring.row;
+    if (spring.to >= 0) sums.force[spring.to] -= force * spring.row;
+    reported_spring(spring, w, force);
   }
+}
+
+/// Holds the displacement and the force that are reported of a spring against those of this state. The force
+/// may jump where the law has a kink, and where a one-sided spring touches: within the rounding of its
+/// displacement a steepest slope bounds the change.
+void Evaluation::reported_spring(const NodeSpring& spring, double w, double force) {
+  const SpringState& said = state_.springs[spring.place];
+  const RodReaction& reaction = spring.reaction;
+  const std::string which = " of spring " + std::to_string(spring.place);
+  const double noise = 100.0 * (noise_ + turn_noise_);
+  note(spring.sense * said.displacement / reaction.unit - w, noise + kConverged, "displacement" + which);
+  double slope = 0.0;
+  if (!reaction.stop)
+    for (const double moved : {-noise, 0.0, noise})
+      slope = std::max(slope, std::abs(reaction.slope(w + moved)));
+  note(spring.sense * reaction.share * said.force - force,
+       slope * noise + kConvergedForce * std::abs(force) + kEps, "force" + which);
 }
 
 /// Displacements of nodes that rods alone reach: those of their supports.
@@ -628,10 +680,8 @@ void Evaluation::anchors() {
 void Evaluation::bars(NodeSums& sums) {
   for (const RodBar& bar : rod_.bars) {
     const Eigen::Vector2d now = bar.along + (out_.nodes[bar.end] - out_.nodes[bar.start]).head<2>();
-    const double length = bar.along.norm();
-    const double stretched = bar.stiffness * (now.norm() - length) / length;
-    const double force = bar.sign * stretched > 0.0 ? stretched : 0.0;
-    const double noise = bar.stiffness / length * 100.0 * noise_;
+    const double force = bar.force_at(now.norm());
+    const double noise = bar.stiffness * 100.0 * noise_;
     const double reported = state_.members[bar.member].axial_force.front() / rod_.force;
     note(reported - force, noise + kConvergedForce * std::abs(force),
          "force of rod " + std::to_string(bar.member));
@@ -669,6 +719,7 @@ RodState Evaluation::run() {
   out_.elements.resize(rod_.elements.size());
   out_.start_force.resize(rod_.members.size());
   out_.end_force.resize(rod_.members.size());
+  out_.joint_stiffness.assign(rod_.members.size(), {0.0, 0.0});
   for (std::size_t e = 0; e < rod_.elements.size(); ++e) {
     shape(rod_.elements[e], out_.elements[e]);
     collect(rod_.elements[e], out_.elements[e]);

@@ -35,7 +35,8 @@ struct RodState {
   std::vector<Eigen::Vector3d> start_force, end_force;  ///< of members, (force x, y, moment) through the ends
   std::vector<Eigen::Vector3d> nodes;  ///< displacements; a rotation that nothing shows is zero
   std::vector<double> node_stiffness;  ///< of the springs at nodes; 0: one that does not act
-  double residual = 0.0;               ///< worst equation over its tolerance
+  std::vector<std::array<double, 2>> joint_stiffness;  ///< of the joints at members' starts and ends
+  double residual = 0.0;                               ///< worst equation over its tolerance
   double roughness = 0.0;  ///< worst distance of a sample from its element's polynomial, over its tolerance
   std::string worst;
   /// Over 1: the shape is in equilibrium, but not with the section forces reported at the members' ends.

@@ -137,20 +137,28 @@ void add_joint(MatrixXd& K, double stiffness, Index end, Index node) {
   K(node, end) -= stiffness;
 }
 
-/// Adds the tangent EA / L e e^T + N / l n n^T of a rod with the force N along e, where its nodes are the
-/// length l apart.
+/// Adds the tangent k e e^T + N / l n n^T of a rod of the stiffness k with the force N along e, where its
+/// nodes are the length l apart.
 void add_bar(MatrixXd& K, const RodBar& bar, const RodState& at) {
   const Eigen::Vector2d now = bar.along + (at.nodes[bar.end] - at.nodes[bar.start]).head<2>();
-  const double length = bar.along.norm();
-  const double force = bar.stiffness * (now.norm() - length) / length;
-  if (!(bar.sign * force > 0.0)) return;
+  const double force = bar.force_at(now.norm());
+  if (force == 0.0) return;
   const Eigen::Vector2d e = now.normalized();
   const Eigen::Vector2d n(-e.y(), e.x());
-  const Eigen::Matrix2d k =
-      bar.stiffness / length * e * e.transpose() + force / now.norm() * n * n.transpose();
+  const Eigen::Matrix2d k = bar.stiffness * e * e.transpose() + force / now.norm() * n * n.transpose();
   for (const int row : {bar.start, bar.end})
     for (const int column : {bar.start, bar.end})
       K.block(3L * row, 3L * column, 2, 2) += row == column ? k : Eigen::Matrix2d(-k);
+}
+
+/// Adds the tangent of a spring, at its node and at its other end.
+void add_node_spring(MatrixXd& K, const NodeSpring& spring, double stiffness) {
+  const Eigen::Matrix3d k = stiffness * spring.row * spring.row.transpose();
+  K.block(3L * spring.node, 3L * spring.node, 3, 3) += k;
+  if (spring.to < 0) return;
+  K.block(3L * spring.to, 3L * spring.to, 3, 3) += k;
+  K.block(3L * spring.node, 3L * spring.to, 3, 3) -= k;
+  K.block(3L * spring.to, 3L * spring.node, 3, 3) -= k;
 }
 
 /// Rows of the displacements of members' ends.
@@ -162,16 +170,14 @@ struct EndRows {
 void add_end_actions(const RodModel& rod, const RodState& at, double load_factor, const EndRows& rows,
                      ConstrainedTangent& out) {
   MatrixXd& K = out.matrix;
-  for (std::size_t i = 0; i < rod.node_springs.size(); ++i) {
-    const NodeSpring& spring = rod.node_springs[i];
-    K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
-        at.node_stiffness[i] * spring.row * spring.row.transpose();
-  }
+  for (std::size_t i = 0; i < rod.node_springs.size(); ++i)
+    add_node_spring(K, rod.node_springs[i], at.node_stiffness[i]);
   for (const RodBar& bar : rod.bars) add_bar(K, bar, at);
   for (std::size_t m = 0; m < rod.members.size(); ++m) {
     const RodMember& member = rod.members[m];
-    add_joint(K, member.at_start.stiffness, rows.start[m][2], 3L * member.start + 2);
-    add_joint(K, member.at_end.stiffness, rows.end[m][2], 3L * member.end + 2);
+    if (member.at_start.resists)
+      add_joint(K, at.joint_stiffness[m][0], rows.start[m][2], 3L * member.start + 2);
+    if (member.at_end.resists) add_joint(K, at.joint_stiffness[m][1], rows.end[m][2], 3L * member.end + 2);
     const double first = pressure_at(rod.elements[rod.mesh.first[m]], load_factor).from;
     const double last = pressure_at(rod.elements[rod.mesh.first[m + 1] - 1], load_factor).to;
     for (const auto& [node, half] :

@@ -1,5 +1,5 @@
 /// Runs seeds and writes a line for each, for scripts/stress.sh:
-///   stress_run <first|broad|laws|media|soil> FIRST COUNT STRIDE SECONDS
+///   stress_run <first|broad|laws|media|soil|members> FIRST COUNT STRIDE SECONDS
 /// "start seed", then "done seed reached termination points uncovered residual inertia undecided stretch
 /// seconds" and a line "fail seed what" for each failure, "note seed why" where no stop rule was reached.
 #include <sys/time.h>
@@ -35,7 +35,8 @@ void end_after(double seconds) {
 int main(int argc, char** argv) {
   const auto draw = argc == 6 ? snapthrough::testing::draw_named(argv[1]) : std::nullopt;
   if (!draw) {
-    std::fprintf(stderr, "usage: stress_run first|broad|laws|media|soil FIRST COUNT STRIDE SECONDS\n");
+    std::fprintf(stderr,
+                 "usage: stress_run first|broad|laws|media|soil|members FIRST COUNT STRIDE SECONDS\n");
     return 2;
   }
   const unsigned long first = std::strtoul(argv[2], nullptr, 10);

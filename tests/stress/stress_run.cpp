@@ -15,9 +15,11 @@
 #include "solver/discrete/mechanism.h"
 #include "solver/resolve/resolved_model.h"
 #include "solver/solve.h"
+#include "tests/index_of.h"
 #include "tests/stress/broad_model.h"
 #include "tests/stress/laws_model.h"
 #include "tests/stress/media_model.h"
+#include "tests/stress/members_model.h"
 #include "tests/stress/random_model.h"
 #include "tests/stress/soil_model.h"
 
@@ -86,11 +88,17 @@ std::string features_of(const RandomRequest& request) {
   for (const Member& member : m.members) {
     if (is_rod(member)) {
       text += " rod";
+      if (member.pretension) text += "(pretension)";
       continue;
     }
     text += std::string(" ") + kCurves.at(member.curve.index());
     if (member.release_start_rotation || member.release_end_rotation) text += "(released)";
     if (member.release_start_stiffness > 0.0 || member.release_end_stiffness > 0.0) text += "(joint)";
+    if (member.release_start_law || member.release_end_law) text += "(joint with a law)";
+    if (member.pretension) text += "(pretension)";
+    const Section& section = m.sections[static_cast<std::size_t>(index_of(m.sections, member.section))];
+    if (std::isinf(section.EA.constant)) text += "(rigid EA)";
+    if (std::isinf(section.EI.constant)) text += "(rigid EI)";
   }
   constexpr std::array kReactions{"bilateral", "compression", "tension"};
   const auto law_of = [](const std::optional<ReactionLaw>& law) {
@@ -99,7 +107,8 @@ std::string features_of(const RandomRequest& request) {
   };
   for (const Foundation& f : m.foundations) {
     text += std::string("; base ") + kReactions.at(static_cast<std::size_t>(f.reaction)) + law_of(f.law);
-    if (f.tangential) text += " tangent";
+    if (f.component == FoundationComponent::tangent) text += " tangent";
+    if (f.component == FoundationComponent::rotation) text += " rotation";
     if (f.direction) text += " fixed direction";
     if (f.gap > 0.0) text += " gap";
     if (!f.gap_along.empty()) text += " gap along";
@@ -111,7 +120,8 @@ std::string features_of(const RandomRequest& request) {
   for (const Spring& s : m.springs) {
     text += std::string("; spring ") + kReactions.at(static_cast<std::size_t>(s.reaction)) + law_of(s.law);
     if (std::isinf(s.stiffness)) text += " rigid";
-    text += s.at.member.empty() ? " at node" : " in member";
+    text += s.to ? " between nodes" : s.at.member.empty() ? " at node" : " in member";
+    if (s.pretension) text += "(pretension)";
   }
   constexpr std::array kLoads{"point",          "distributed", "pressure",
                               "initial strain", "self weight", "temperature"};
@@ -149,7 +159,8 @@ StressOutcome run_request(RandomRequest request, double time_bound_s) {
   // them
   constexpr int kMostPoints = 5000;
   const MeshReport& mesh = result.discretization;
-  const int points = mesh.paths > 1 ? points_needed(request.model, request.analysis, mesh) : 0;
+  const bool is_followed_anew = mesh.paths > 1 && result.summary.termination != "cancelled";
+  const int points = is_followed_anew ? points_needed(request.model, request.analysis, mesh) : 0;
   if (points > 0 && points <= kMostPoints) {
     request.analysis.output.points_per_member = points;
     result = solve(request.model, request.analysis);
@@ -174,13 +185,15 @@ std::optional<Draw> draw_named(std::string_view name) {
   if (name == "broad") return Draw::broad;
   if (name == "laws") return Draw::laws;
   if (name == "media") return Draw::media;
-  return name == "soil" ? std::optional(Draw::soil) : std::nullopt;
+  if (name == "soil") return Draw::soil;
+  return name == "members" ? std::optional(Draw::members) : std::nullopt;
 }
 
 RandomRequest draw_request(Draw draw, std::uint64_t seed) {
   if (draw == Draw::laws) return laws_request(seed);
   if (draw == Draw::media) return media_request(seed);
   if (draw == Draw::soil) return soil_request(seed);
+  if (draw == Draw::members) return members_request(seed);
   return draw == Draw::broad ? broad_request(seed) : random_request(seed);
 }
 

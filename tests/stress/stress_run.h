@@ -15,7 +15,7 @@ namespace snapthrough::testing {
 
 /// Which generator a seed belongs to. A generator is never changed, since docs/stress.md tells of its seeds:
 /// a wider one is added.
-enum class Draw { first, broad, laws, media, soil };
+enum class Draw { first, broad, laws, media, soil, members };
 
 /// Draw of a name; empty for another text.
 [[nodiscard]] std::optional<Draw> draw_named(std::string_view name);

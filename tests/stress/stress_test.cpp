@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "api/api.h"
@@ -13,6 +16,7 @@
 #include "tests/stress/inertia.h"
 #include "tests/stress/laws_model.h"
 #include "tests/stress/media_model.h"
+#include "tests/stress/members_model.h"
 #include "tests/stress/random_model.h"
 #include "tests/stress/request_text.h"
 #include "tests/stress/rod_law.h"
@@ -108,6 +112,98 @@ TEST(StressChecker, SeesAMissingContact) {
   EXPECT_TRUE(check.failures.front().starts_with("contact:")) << check.failures.front();
 }
 
+/// The checker agrees with the solver on a request, and not on another one.
+/// @param change by which the model that is checked differs from the one that is solved
+void expect_seen(RandomRequest request, const std::function<void(Model&)>& change) {
+  request.analysis.output.points_per_member = points_needed(request.model, request.analysis);
+  const Result result = solve(request.model, request.analysis);
+  ASSERT_EQ(result.summary.termination, "load_factor") << result.summary.message;
+  for (const std::string& what : check_result(request.model, request.analysis, result).failures)
+    ADD_FAILURE() << what;
+  change(request.model);
+  EXPECT_GT(check_result(request.model, request.analysis, result).residual, 1.0);
+}
+
+ReactionLaw yielding(double stiffness, double capacity) {
+  ReactionLaw law;
+  law.type = ReactionLaw::Type::tanh;
+  law.stiffness = stiffness;
+  law.capacity = capacity;
+  return law;
+}
+
+/// The hinged beam with a moment law of its sections' rotation.
+TEST(StressChecker, SeesAFalseFoundationAgainstRotation) {
+  Foundation bed;
+  bed.id = "bed";
+  bed.member = "beam";
+  bed.component = FoundationComponent::rotation;
+  bed.law = yielding(5.0, 0.3);
+  const auto change = [](Model& m) { m.foundations.front().law->capacity = 0.3 * (1.0 + 1e-5); };
+  expect_seen(beam_on(bed), change);
+  bed.law.reset();
+  bed.stiffness = 5.0;
+  expect_seen(beam_on(bed), [](Model& m) { m.foundations.front().stiffness *= 1.0 + 1e-5; });
+}
+
+/// The beam, clamped at its start by a joint that yields.
+TEST(StressChecker, SeesAFalseJoint) {
+  RandomRequest request = beam_on({.id = "soft", .member = "beam", .stiffness = 0.1, .direction = {}});
+  request.model.supports.front().rotation = true;
+  request.model.members.front().release_start_rotation = true;
+  request.model.members.front().release_start_law = yielding(20.0, 0.5);
+  expect_seen(request, [](Model& m) { m.members.front().release_start_law->capacity = 0.5 * (1.0 + 1e-5); });
+}
+
+/// The beam with a guy, a tie and a spring to the ground beside it, all of them pretensioned.
+TEST(StressChecker, SeesAFalsePretension) {
+  RandomRequest request = beam_on({.id = "soft", .member = "beam", .stiffness = 0.1, .direction = {}});
+  Model& model = request.model;
+  constexpr double EA = 100.0;  // so that the changes below strain by more than a state's digits
+  model.sections.push_back({"tie", EA, 1.0, {}});
+  model.nodes.push_back({"c", 3.0, -1.0});
+  model.nodes.push_back({"d", 3.0, 1.0});
+  model.supports.push_back({"c", true, true, false, 0.0, {}});
+  model.supports.push_back({"d", true, true, false, 0.0, {}});
+  model.members.push_back({.id = "guy", .start = "b", .end = "c", .section = "tie", .curve = {}});
+  model.members.back().reaction = Reaction::tension_only;
+  model.members.push_back({.id = "tie", .start = "b", .end = "d", .section = "tie", .curve = {}});
+  model.members.back().release_start_rotation = model.members.back().release_end_rotation = true;
+  Spring link;
+  link.id = "link";
+  link.at = {"b", "", 0.0};
+  link.to = Location{"d", "", 0.0};
+  link.direction = {-2.0, -2.0};
+  link.stiffness = 3.0;
+  model.springs = {link};
+  const double length = std::numbers::sqrt2;
+  for (const bool by_force : {true, false}) {
+    const auto given = [&](double force, double stiffness) {
+      return by_force ? Pretension{force, {}} : Pretension{{}, length - force / stiffness};
+    };
+    model.members[1].pretension = given(2.0, EA / length);
+    model.members[2].pretension = given(1.0, EA / length);
+    model.springs.front().pretension = given(0.5, 3.0);
+    const auto off = [](Pretension& p) { (p.force ? *p.force : *p.unstressed_length) *= 1.0 + 1e-5; };
+    expect_seen(request, [&off](Model& m) { off(*m.members[1].pretension); });
+    expect_seen(request, [&off](Model& m) { off(*m.members[2].pretension); });
+    expect_seen(request, [&off](Model& m) { off(*m.springs.front().pretension); });
+  }
+}
+
+/// The beam with a rigid piece that continues it, and a force on its end.
+TEST(StressChecker, SeesThatARigidMemberStrains) {
+  constexpr double kRigid = std::numeric_limits<double>::infinity();
+  RandomRequest request = beam_on({.id = "soft", .member = "beam", .stiffness = 0.1, .direction = {}});
+  Model& model = request.model;
+  model.nodes.push_back({"c", 2.5, 0.0});
+  model.sections.push_back({"rigid", kRigid, kRigid, {}});
+  model.members.push_back({.id = "arm", .start = "b", .end = "c", .section = "rigid", .curve = {}});
+  model.loads.emplace_back(PointLoad{{"c", "", 0.0}, {0.1, 0.2}, 0.0, Pattern::proportional});
+  expect_seen(request, [](Model& m) { m.sections.back().EI = 1e5; });
+  expect_seen(request, [](Model& m) { m.sections.back().EA = 1e5; });
+}
+
 /// Values that the formulas of docs/requests.md have at the penetrations that scale them, and slopes.
 TEST(StressChecker, LawsAreThoseOfTheDocument) {
   using Type = ReactionLaw::Type;
@@ -190,12 +286,26 @@ TEST(Stress, SliceOfRandomMedia) {
   }
 }
 
+/// Structures with rigid members, joints that yield, beds against rotation, guys, ties and links.
+TEST(Stress, SliceOfRandomMembers) {
+  const std::map<std::uint64_t, std::string> ends{
+      {900044, "monitor_turned"},     {900222, "critical_point"}, {900243, "load_bound"},
+      {900272, "load_bound"},         {900294, "steps"},          {900338, "load_factor"},
+      {900463, "displacement_bound"}, {900535, "limit_points"},   {900551, "monitor"},
+      {900577, "critical_point"},     {900594, "load_factor"},    {900769, "displacement_bound"}};
+  for (const auto& [seed, end] : ends) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_checked(run_seed(Draw::members, seed, 20.0), end);
+  }
+}
+
 /// What `stress_request` writes is the request that was drawn: read as a user's document it is written the
 /// same.
 TEST(Stress, RequestsOfSeedsAreWrittenWhole) {
   for (std::uint64_t seed = 0; seed < 200; ++seed)
-    for (const RandomRequest& drawn : {random_request(seed), broad_request(seed), laws_request(seed),
-                                       media_request(seed), soil_request(seed), frame_request(seed, 1e-3)}) {
+    for (const RandomRequest& drawn :
+         {random_request(seed), broad_request(seed), laws_request(seed), media_request(seed),
+          soil_request(seed), members_request(seed), frame_request(seed, 1e-3)}) {
       const std::string text = request_text(drawn);
       const api::ReadOutcome read = api::read_request(text);
       ASSERT_TRUE(read.request) << seed << ": " << text;
