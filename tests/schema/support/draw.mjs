@@ -142,7 +142,9 @@ export class Drawer {
     model.supports = (model.supports ?? []).filter((one, i) => one.node !== first.id && i < model.nodes.length);
     model.supports.push({node: first.id, fixed: ['x', 'y', 'rotation']});
     for (const one of model.supports) delete one.displacement, delete one.pattern;
-    for (const one of model.members) delete one.release, delete one.reaction;
+    for (const one of model.members) delete one.release, delete one.reaction, delete one.pretension;
+    for (const one of model.springs ?? []) delete one.pretension;
+    for (const one of model.sections) for (const field of ['EA', 'EI', 'GA']) if (one[field] === 'rigid') one[field] = 1;
   }
 
   /** Layers from the surface to below all members, and straight members in them. */
@@ -220,6 +222,7 @@ export class Drawer {
 
   /** What goes with what between fields. */
   agree(model, analysis) {
+    if (analysis.output) delete analysis.output.stiffness_at;
     const order = (pair) => { if (pair) pair.sort((a, b) => a - b); if (pair && pair[0] === pair[1]) pair[0] -= 0.5; };
     for (const one of [...(model.springs ?? []), ...(model.foundations ?? [])]) {
       if (one.stiffness === 'rigid') one.reaction = 'compression_only';

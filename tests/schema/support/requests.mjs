@@ -94,6 +94,8 @@ export function answerable() {
     add(`critical, states ${JSON.stringify(states)}`, arch(), {type: 'critical', output: {states, points_per_member: 5}});
   }
   for (const type of ['path', 'critical']) {
+    const at = [{node: arch().members[0].start}, {member: arch().members[0].id, fraction: 0.25}];
+    add(`${type}, stiffness_at`, arch(), {type, stop: rule, output: {stiffness_at: at, points_per_member: 5}});
     add(`${type}, path_points`, arch(), {type, stop: rule, output: {path_points: 50}});
     add(`${type}, extremes`, arch(), {type, stop: rule, output: {extremes: true, states: 'none'}});
     add(`${type}, sensitivities`, arch(),
