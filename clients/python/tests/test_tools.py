@@ -169,7 +169,10 @@ class NotebookOfAllProblems(Case):
         program = "import matplotlib\nmatplotlib.use('Agg')\n" + "".join(
             code.replace('PROBLEM = "gallery/liner"', f"PROBLEM = {problem!r}") + "\nassert '</svg>' in result._repr_svg_()\n"
             "assert any(value for _, value in answers), PROBLEM\nplt.close('all')\n" for problem in problems)
-        done = run([sys.executable, "-c", program], cwd=PACKAGE / "examples")
+        with tempfile.TemporaryDirectory() as folder:  # longer than an argument may be
+            script = pathlib.Path(folder) / "problems.py"
+            script.write_text(program, encoding="utf-8")
+            done = run([sys.executable, str(script)], cwd=PACKAGE / "examples")
         self.assertEqual(done.returncode, 0, done.stderr)
 
 
