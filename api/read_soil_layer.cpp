@@ -61,11 +61,10 @@ soil::Sand read_api_sand(Object& in) {
   return sand;
 }
 
-/// Reads the strength: one number, or two for the upper and the lower face.
-static void read_strength(Object& in, soil::SoftClay& clay) {
-  const auto value = in.find_required("Su");
+std::optional<std::array<double, 2>> read_faces(Object& in, std::string_view key) {
+  const auto value = in.find_required(key);
   if (!value) {
-    return;
+    return std::nullopt;
   }
   std::array<double, 2> faces{};
   if (value->is_array()) {
@@ -75,11 +74,22 @@ static void read_strength(Object& in, soil::SoftClay& clay) {
     faces[1] = faces[0];
   } else {
     value->report_type("a number, or two numbers for the upper and the lower face");
+    return std::nullopt;
+  }
+  return faces;
+}
+
+/// Reads the strength, which may vanish at one face.
+static void read_strength(Object& in, soil::SoftClay& clay) {
+  const auto given = read_faces(in, "Su");
+  if (!given) {
     return;
   }
+  const std::array<double, 2>& faces = *given;
   const auto is_strength = [](double Su) { return std::isnan(Su) || (Su >= 0.0 && Su <= kMaxMagnitude); };
   if (!is_strength(faces[0]) || !is_strength(faces[1]) || (faces[0] == 0.0 && faces[1] == 0.0)) {
-    value->report("out_of_range", "Su must be finite, not negative, and positive at one face at least");
+    in.find("Su")->report("out_of_range",
+                          "Su must be finite, not negative, and positive at one face at least");
   }
   clay.Su_top = faces[0];
   clay.Su_bottom = faces[1];

@@ -2,6 +2,8 @@
 /// @file
 /// Readers of what a layer of soil has in every document. Internal to api/.
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +20,11 @@ void read_positive(Object& in, std::string_view key, double& out);
 void read(const Value& value, soil::Loading& out);
 /// Reads `accuracy` if it is there.
 void read_accuracy(Object& in, double& out);
+
+/// @brief Reads one number for both faces of a layer, or one for the upper and one for the lower face. The
+/// values are not checked, and one that is no number is NaN.
+/// @return empty where the field is missing or neither of the two, after a report
+[[nodiscard]] std::optional<std::array<double, 2>> read_faces(Object& in, std::string_view key);
 
 /// Reads `k`, and `phi` or `C1`, `C2` and `C3`.
 [[nodiscard]] soil::Sand read_api_sand(Object& in);

@@ -45,29 +45,19 @@ static void read_at_faces(Object& in, std::string_view key, double& top, double&
                           bool may_vanish = false) {
   set_unread(top);
   set_unread(bottom);
-  const auto value = in.find_required(key);
-  if (!value) {
+  const auto faces = read_faces(in, key);
+  if (!faces) {
     return;
   }
-  std::array<double, 2> faces{};
-  if (value->is_array()) {
-    read(*value, faces);
-  } else if (value->is_number()) {
-    read(*value, faces[0]);
-    faces[1] = faces[0];
-  } else {
-    value->report_type("a number, or two numbers for the upper and the lower face");
-    return;
-  }
-  for (const double face : faces) {
+  for (const double face : *faces) {
     if (!std::isnan(face) && !((may_vanish ? face >= 0.0 : face > 0.0) && face <= kMaxMagnitude)) {
-      value->report("out_of_range", std::string(key) + (may_vanish ? " must be finite and not negative"
-                                                                   : " must be positive and finite"));
+      in.find(key)->report("out_of_range", std::string(key) + (may_vanish ? " must be finite and not negative"
+                                                                          : " must be positive and finite"));
       break;
     }
   }
-  top = faces[0];
-  bottom = faces[1];
+  top = (*faces)[0];
+  bottom = (*faces)[1];
 }
 
 static void read(const Value& value, soil::SoftClayStart& out) {

@@ -61,9 +61,10 @@ struct Curve {
 
 /// Beginning of the curve of soft clay. The cube root starts vertically.
 enum class SoftClayStart {
-  formula,    ///< the cube root from `first_point` on, a straight line up to there
-  api_points  ///< straight lines through the rounded points of API RP 2GEO: p/Pmax 0.23, 0.33, 0.5, 0.72, 1
-              ///< at y/y50 0.1, 0.3, 1, 3, 8
+  formula,  ///< the cube root from `first_point` on, a straight line up to there
+  /// Straight lines through the rounded points (y/y50, p/Pmax) of API RP 2GEO: (0.1, 0.23), (0.3, 0.33),
+  /// (1, 0.5), (3, 0.72), (8, 1).
+  api_points
 };
 
 /// @brief Soft clay under water.

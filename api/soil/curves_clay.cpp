@@ -10,7 +10,8 @@ namespace snapthrough::api::soil {
 
 namespace {
 
-/// Ultimate resistance of Matlock, for whose shallow mechanism clay may have another strength.
+/// Ultimate resistance of clay per length of pile by Matlock's formula, and how deep the place is. The
+/// formula's shallow mechanism may have another strength Su than the deep one.
 struct ClayResistance {
   double ultimate = 0.0;  ///< Pmax
   double ratio = 0.0;     ///< X/X_R, at most 1

@@ -61,6 +61,8 @@ void check_location(const Place& place, const Location& location, const Names& n
 bool require_beam(const Place& place, const std::string& member, const Names& names);
 /// Requires what one-sided members cannot have to be left out.
 void check_rod(const Place& place, const Member& rod);
+/// Section of a member; null: it names a section that does not exist.
+[[nodiscard]] const Section* section_of(const Member& member, const Model& data, const Names& names);
 /// Checks the pretension of a member. @pre member.pretension; the names of nodes and sections are known
 void check_pretension(const Place& place, const Member& member, const Model& data, const Names& names);
 /// Checks the pretension of a spring. @pre spring.pretension; the names of nodes are known

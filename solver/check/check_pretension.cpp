@@ -18,9 +18,7 @@ void check_values(const Place& place, const Pretension& given) {
   if (given.force.has_value() == given.unstressed_length.has_value())
     place.report("ambiguous", "a pretension is given by force or by unstressed_length, and not by both");
   if (given.force) require_finite(place / "force", *given.force);
-  if (given.unstressed_length && require_finite(place / "unstressed_length", *given.unstressed_length) &&
-      !(*given.unstressed_length > 0.0))
-    (place / "unstressed_length").report("out_of_range", "unstressed_length must be above zero");
+  if (given.unstressed_length) require_positive(place / "unstressed_length", *given.unstressed_length);
 }
 
 }  // namespace
@@ -29,13 +27,13 @@ void check_pretension(const Place& place, const Member& member, const Model& dat
   check_values(place, *member.pretension);
   if (!std::holds_alternative<LineCurve>(member.curve))
     place.report("not_supported", "only a straight member has a pretension");
-  if (!member.pretension->force || !names.sections.contains(member.section)) return;
-  const AlongMember& EA = data.sections[names.sections.index(member.section)].EA;
-  if (EA.varies() && !is_rod(member))
+  const Section* section = section_of(member, data, names);
+  if (!member.pretension->force || section == nullptr) return;
+  if (section->EA.varies() && !is_rod(member))
     (place / "force")
         .report("not_supported",
                 "the EA of this member varies, so that a force strains it unevenly: give unstressed_length");
-  if (std::isinf(EA.constant))
+  if (std::isinf(section->EA.constant))
     (place / "force").report("not_supported", "a member whose EA is rigid has no pretension by force");
 }
 

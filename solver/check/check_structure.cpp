@@ -220,21 +220,26 @@ void check_sections(const Place& model, const Model& data, Names& names) {
   }
 }
 
+const Section* section_of(const Member& member, const Model& data, const Names& names) {
+  return names.sections.contains(member.section) ? &data.sections[names.sections.index(member.section)]
+                                                 : nullptr;
+}
+
 namespace {
 
 /// Whether a member has a stiffness that is not rigid, or names a section that does not exist. @pre those
 /// that are one-sided have a finite EA
 bool has_flexible_member(const Model& data, const Names& names) {
   return std::any_of(data.members.begin(), data.members.end(), [&](const Member& member) {
-    return is_rod(member) || !names.sections.contains(member.section) ||
-           !std::isinf(data.sections[names.sections.index(member.section)].EI.constant);
+    const Section* section = section_of(member, data, names);
+    return is_rod(member) || section == nullptr || !std::isinf(section->EI.constant);
   });
 }
 
 /// Checks that the section of a one-sided member has a finite EA.
 void check_rod_section(const Place& place, const Member& rod, const Model& data, const Names& names) {
-  if (names.sections.contains(rod.section) &&
-      std::isinf(data.sections[names.sections.index(rod.section)].EA.constant)) {
+  const Section* section = section_of(rod, data, names);
+  if (section != nullptr && std::isinf(section->EA.constant)) {
     (place / "section").report("not_supported", "a one-sided member needs a section whose EA is not rigid");
   }
 }

@@ -184,9 +184,8 @@ bool lies_on_rigid_member(const Foundation& foundation, const Model& data, const
   if (!names.members.contains(foundation.member)) {
     return false;
   }
-  const std::string& section = data.members[names.members.index(foundation.member)].section;
-  return names.sections.contains(section) &&
-         std::isinf(data.sections[names.sections.index(section)].EI.constant);
+  const Section* section = section_of(data.members[names.members.index(foundation.member)], data, names);
+  return section != nullptr && std::isinf(section->EI.constant);
 }
 
 /// Checks a foundation along the tangent or against rotation.

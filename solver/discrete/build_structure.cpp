@@ -83,8 +83,10 @@ void set_critical_loads(Structure& out) {
   for (const ResolvedFoundation& foundation : model.foundations) {
     const auto m = static_cast<std::size_t>(foundation.member);
     const double EI = finite(model.section_of(model.members[m]).EI.largest());
-    out.foundation_loads[m] +=
-        2.0 * std::sqrt(stiffness_on(out, foundation, foundation.member) * EI) + foundation.shear_stiffness;
+    const double stiffness = stiffness_on(out, foundation, foundation.member);
+    out.foundation_loads[m] += foundation.component == FoundationComponent::rotation
+                                   ? stiffness
+                                   : 2.0 * std::sqrt(stiffness * EI) + foundation.shear_stiffness;
   }
   for (double& load : out.foundation_loads) load /= out.scales.force;
 }

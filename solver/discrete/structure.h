@@ -141,9 +141,10 @@ struct Structure {
   std::vector<std::string> skipped;
   std::vector<FollowerEnd> follower_ends;
   std::vector<FollowerForce> follower_forces;
-  std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member by its smallest EI
-  std::vector<double> foundation_loads;  ///< increase by foundations, largest EI: 2 sqrt(K EI) + G
-  TouchingSupports touching;             ///< empty unless touching supports were searched for
+  std::vector<double> euler_loads;  ///< pi^2 EI / l^2 of each member by its smallest EI
+  /// Increase of these by foundations, with the largest EI: 2 sqrt(K EI) + G, or K of one against rotation.
+  std::vector<double> foundation_loads;
+  TouchingSupports touching;  ///< empty unless touching supports were searched for
   /// Curves to which the laws of the elements, nodes and joints refer.
   std::vector<std::shared_ptr<const ReactionCurve>> curves;
   ModelTraits traits;

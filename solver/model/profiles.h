@@ -33,8 +33,8 @@ struct RolledProfile {
 
 /// @brief Profile of a name.
 ///
-/// Case, blanks and the place of a suffix do not count, and "*", the sign of multiplication and a blank
-/// between two numbers stand for "x": "HE 200 A", "HEA 200" and "hea200" are one profile, as are "IPE A 300"
+/// Case, blanks and the place of a suffix do not count. Between two numbers, "*", the sign of multiplication
+/// or a blank may be written for "x". "HE 200 A", "HEA 200" and "hea200" are one profile, as are "IPE A 300"
 /// and "IPE 300 A". "UKB", "UKC", "INP" and "UNP" are UB, UC, IPN and UPN. Thread-safe.
 [[nodiscard]] std::optional<RolledProfile> find_profile(std::string_view name);
 

@@ -103,8 +103,8 @@ CorrectorOutcome PointSolver::correct_by_least_energy(double scale, int iteratio
 
 namespace {
 
-/// Limits of the search for a state that tension stiffens. Chosen: drags span what a net of a thousand
-/// members needs, and each of some twenty steps falls by a factor of ten.
+/// Limits of the search for a state that tension stiffens. Chosen: chains of up to 100 rods take 24 to 48
+/// factorisations with them.
 struct TightSearch {
   static constexpr int steps = 200;
   static constexpr int corrections = 60;     ///< Newton corrections of each step

@@ -125,15 +125,13 @@ class Joiner {
   }
 
  private:
-  [[nodiscard]] static bool has_pretension(const ResolvedSpring& spring) {
-    return spring.pretension.has_value();
-  }
-  [[nodiscard]] static bool has_pretension(const ResolvedFoundation&) { return false; }
   template <class Support>
   [[nodiscard]] bool touches(const Support& support, double unit) const {
     if constexpr (requires { support.outline; })
       if (support.outline || !support.gap_along.empty() || support.shear_stiffness > 0.0) return false;
-    return is_one_sided(support) && !support.law && !support.displacement && !has_pretension(support) &&
+    if constexpr (requires { support.pretension; })
+      if (support.pretension) return false;
+    return is_one_sided(support) && !support.law && !support.displacement &&
            std::isfinite(support.stiffness) && support.gap <= Rounding::coordinate * unit;
   }
   void join_springs();

@@ -151,7 +151,7 @@ struct PlaceOnAxis {
 struct FoundationLaw {
   Direction direction;  ///< not used with a surface
   /// Whether the foundation resists the rotation of the member's sections. The rotation then stands for the
-  /// displacement along x, and `direction` is that of x: see motion().
+  /// displacement along x, and `direction` is that of x.
   bool rotational = false;
   Law law;               ///< reaction per length, with the largest stiffness and capacity along the member
   double shear = 0.0;    ///< stiffness G of the shear layer
@@ -185,10 +185,6 @@ struct FoundationLaw {
     if (surface) return below_surface(at, u);
     const auto d = direction.at(at.angle);
     return {u[0] * d[0] + u[1] * d[1] - value_at(law.gap, gap_along, at.fraction), d};
-  }
-  /// What the law takes for the displacement (x, y) of the axis. @param u displacement (x, y, rotation)
-  [[nodiscard]] std::array<double, 2> motion(const std::array<double, 3>& u) const {
-    return rotational ? std::array{u[2], 0.0} : std::array{u[0], u[1]};
   }
   /// Weights of (x, y, rotation) in the penetration. @param d direction into the medium
   [[nodiscard]] std::array<double, 3> row(const std::array<double, 2>& d) const {

@@ -50,7 +50,8 @@ struct RodReaction {
   [[nodiscard]] bool acts(double w) const { return !one_sided || w > without_force + gap; }
   [[nodiscard]] double force(double w) const { return share * law.force(penetration(w)); }
   [[nodiscard]] double slope(double w) const { return share * unit * law.slope(penetration(w)); }
-  /// What the law takes for its displacement, in the model's units.
+  /// Displacement beyond the gap and beyond that of a pretension, in the model's units: the argument of
+  /// `law`.
   [[nodiscard]] double penetration(double w) const { return unit * (w - without_force - gap); }
 };
 

@@ -139,6 +139,29 @@ TEST(RotationFoundation, SectionMomentsBetweenTheEnds) {
   }
 }
 
+/// A bar on a hinge turns when the moment at its end is as large as what the foundation can resist, c per
+/// length on its whole length L, however long another member of the model is.
+TEST(RotationFoundation, LimitMomentOfABar) {
+  constexpr double L = 1.5;
+  constexpr double c = 0.4;
+  Model model = straight(L, 50.0, 1e4, "xy", "");
+  model.nodes.push_back({"c", 0.0, -4.0});
+  model.nodes.push_back({"d", 6.0, -4.0});
+  model.members.push_back({"other", "c", "d", "s", LineCurve{}});
+  model.supports.push_back(support("c", "xyr"));
+  Foundation base = against_rotation("m", 0.0);
+  base.law.emplace();
+  base.law->type = ReactionLaw::Type::tanh;
+  base.law->stiffness = 3.0;
+  base.law->capacity = c;
+  model.foundations = {base};
+  model.loads = {force_at(at_node("b"), 0.0, 0.0, 1.0)};
+  const Result result = solve_soundly(model, analysis_of(AnalysisType::critical, accurate(1e-6)));
+  EXPECT_EQ(result.summary.critical_type, CriticalType::capacity);
+  ASSERT_TRUE(result.summary.critical_load_factor);
+  expect_relative(*result.summary.critical_load_factor, c * L, 1e-9, "limit moment");
+}
+
 /// A rotational foundation holds no displacement: a bar on one alone floats away.
 TEST(RotationFoundation, HoldsNoDisplacement) {
   Model model = straight(1.0, 1.0, 1e3, "", "");

@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 /// Pmax = (3 x 20 + 16) 1 + 0.5 x 20 x 2 = 96 and X_R = 6 x 20 / (8 + 0.5 x 20) = 20/3, so that X/X_R = 0.3.
 Place shallow(Loading loading) { return {2.0, 16.0, 1.0, 20.0, 0.0, loading}; }
 constexpr double kShallowPmax = 96.0;
-/// A place below the transition, where Pmax = 9 x 20 x 1.
+/// A place in the same clay below the depth of transition, where Pmax = 9 Su D = 9 x 20 x 1.
 Place deep(Loading loading) { return {10.0, 80.0, 1.0, 20.0, 0.0, loading}; }
 constexpr double kDeepPmax = 180.0;
 constexpr double kY50 = 2.5 * 0.01 * 1.0;

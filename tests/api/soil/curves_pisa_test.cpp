@@ -1,5 +1,5 @@
-/// Curves of PISA against values of openpile 1.0.2, whose functions were run on their own, and against the
-/// conic itself.
+/// Curves of PISA against values that the functions of openpile 1.0.2 returned, and against the equation of
+/// the conic.
 
 #include <gtest/gtest.h>
 
