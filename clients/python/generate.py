@@ -258,6 +258,9 @@ class Received(Types):
         scalar = self.scalar(schema)
         if scalar:
             return scalar, None
+        if isinstance(schema["type"], list):  # of something, or null
+            something = next(kind for kind in schema["type"] if kind != "null")
+            return self.type_of_choice({"anyOf": [{**schema, "type": something}, {"type": "null"}]}, name)
         if schema["type"] == "array":
             if "prefixItems" in schema:
                 return "List[float]", None
