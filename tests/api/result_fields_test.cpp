@@ -45,9 +45,10 @@ struct Allowed {
     }
     if (!schema.contains("type")) return;
     const Schema& type = schema.at("type");
-    if (type.is_string()) types.insert(type.get<std::string>());
-    if (type.is_array()) types.insert(type.begin(), type.end());
-    if (type == "object" || type == "array") inside = &schema;
+    for (const std::string one : type.is_array() ? type : Schema::array({type})) {
+      types.insert(one);
+      if (one == "object" || one == "array") inside = &schema;
+    }
   }
 };
 

@@ -82,11 +82,23 @@ async function events(path, target, kinds) {
   return names;
 }
 
+/** Submits a job, and waits longer for it than one request may: other work on the machine slows it down. */
+async function solved(request) {
+  const answer = await submit(request, {Prefer: 'wait=60'});
+  if (answer.status !== 201) return answer;
+  const job = `/v1/jobs/${answer.json.id}`;
+  for (let minutes = 1; minutes < 6; ++minutes) {
+    const {json} = await call('GET', '/v1/jobs/{id}', job, {headers: {Prefer: 'wait=60'}});
+    if (!['accepted', 'running'].includes(json.status)) break;
+  }
+  return call('GET', '/v1/jobs/{id}/result', `${job}/result`);
+}
+
 test('results of every type of analysis and option', async (t) => {
   for (const [name, request] of Object.entries(answerable())) {
     await t.test(name, async () => {
       assert.deepEqual(faults(validatorOf({$ref: '#/components/schemas/Request'}), request), []);
-      const {status, json} = await submit(request, {Prefer: 'wait=60'});
+      const {status, json} = await solved(request);
       assert.equal(status, 200, JSON.stringify(json).slice(0, 300));
     });
   }
