@@ -166,6 +166,8 @@ void SoftestPoint::search(PathPoint low, PathPoint high) {
     (is_before ? low : high) = *std::move(middle);
   }
   PathPoint& best = stiffness_of(low)->value <= stiffness_of(high)->value ? low : high;
+  // a stiffness below zero where no eigenvalue of the tangent is negative is what rounding makes of it
+  if (stiffness_of(best)->value < 0.0) return;
   if (!lowest_ || stiffness_of(best)->value < stiffness_of(*lowest_)->value) lowest_ = std::move(best);
 }
 

@@ -32,6 +32,8 @@ struct CriticalLimits {
   static constexpr int settling = 3;     ///< iterations until the unfolding force measures the imperfection
   /// Largest distance in the load factor at which the stiffness of another motion counts as vanishing.
   static constexpr double near = 1e-3;
+  /// Distance in the load factor from a count of negative eigenvalues, relative, up to which it holds.
+  static constexpr double count_holds = 1e-2;
   static constexpr int null_iterations = 2;  ///< inverse iterations for another null motion
   /// Distance from the point of the factors that find another null motion, over the load factor.
   static constexpr double beside = 1e-6;
@@ -51,6 +53,8 @@ class CriticalNewton {
     if (bifurcation) at_.unfolding = VectorXd::Zero(guess.null.cols());
   }
   [[nodiscard]] std::optional<CriticalSolution> run(int& factorisations);
+  /// State next to the critical point from which the last iteration led away; empty: none.
+  [[nodiscard]] const std::optional<CriticalSolution>& nearest() const { return nearest_; }
   [[nodiscard]] VectorXd another_null_motion(const CriticalSolution& at);
 
  private:
@@ -86,10 +90,13 @@ class CriticalNewton {
   double moved_ = 0.0;
   double previous_ = 0.0;                                  ///< norm of the last correction
   double left_ = std::numeric_limits<double>::infinity();  ///< relative residual of settled_
+  std::optional<CriticalSolution> nearest_;
   std::optional<CriticalSolution> settled_;  ///< a converged solution whose residual may still decrease
   bool stalled_ = false;                     ///< corrections no longer decrease
-  /// Smallest relative difference so far between stiffnesses from the factors and from Rayleigh quotients.
-  double least_doubt_ = std::numeric_limits<double>::infinity();
+  /// Relative difference between stiffnesses from the factors and from Rayleigh quotients, where
+  /// CriticalSolution::others was counted.
+  double doubt_of_count_ = std::numeric_limits<double>::infinity();
+  double counted_at_ = 0.0;  ///< load factor at which CriticalSolution::others was counted
 };
 
 /// One step of iterative refinement. Elimination loses digits where the tangent is singular, or where a part
@@ -142,12 +149,16 @@ bool CriticalNewton::factorise() {
   at_.stiffness = symmetric_part(works(problem_.tangent_products(at_.y, at_.lambda, v_), v_));
   const VectorXd exact = eigenvalues(at_.stiffness);
   const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
-  if (!(doubt > least_doubt_)) {
+  const bool is_sure = doubt < CriticalLimits::sure;
+  const double size = std::max(std::abs(at_.lambda), options_.least_load);
+  const bool is_elsewhere = std::abs(at_.lambda - counted_at_) > CriticalLimits::count_holds * size;
+  if (is_sure || is_elsewhere || !(doubt > doubt_of_count_)) {
     // pivots and these eigenvalues come from one factorisation, so that their signs are consistent
-    least_doubt_ = doubt;
+    doubt_of_count_ = doubt;
+    counted_at_ = at_.lambda;
     at_.others = report.negative - static_cast<int>((factored.array() < 0.0).count());
   }
-  if (!(doubt < CriticalLimits::sure)) {
+  if (!is_sure) {
     refine(rows, border);
     keep_better(rows, border);
     take_quotients(rows.rightCols(2));
@@ -329,6 +340,8 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
     const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
     if (broken && it >= CriticalLimits::settling) break;
     if (converged() && balances()) return std::move(at_);
+    const double size = std::max(std::abs(at_.lambda), options_.least_load);
+    if (bifurcation_ && std::abs(dlambda_) <= CriticalLimits::near * size) nearest_ = at_;
   }
   return std::move(settled_);
 }
@@ -371,15 +384,17 @@ std::optional<CriticalSolution> solve_bifurcation(EquilibriumProblem& problem, c
   for (;;) {
     CriticalNewton newton(problem, metric, wider, options, true);
     auto found = newton.run(factorisations);
-    if (!found) return best;
+    // factors bordered by too few null motions lose their digits before the iteration has converged
+    const std::optional<CriticalSolution>& at = found ? found : newton.nearest();
+    if (!at) return best;
     ++factorisations;
-    const VectorXd another = newton.another_null_motion(*found);
-    if (another.size() == 0) return found;
+    const VectorXd another = newton.another_null_motion(*at);
+    if (another.size() == 0) return found ? found : best;
     // restart from the guess: at a multiple bifurcation the factors have no accurate digits
-    const Index k = found->null.cols();
+    const Index k = at->null.cols();
     wider.null.resize(Eigen::NoChange, k + 1);
-    wider.null << found->null, another;
-    best = std::move(found);
+    wider.null << at->null, another;
+    if (found) best = std::move(found);
   }
 }
 

@@ -21,37 +21,54 @@ bool AskedStateSearch::passes(std::size_t index, const PathPoint& from, const Pa
   return (from.lambda > load) != (to.lambda > load);
 }
 
-bool AskedStateSearch::look_on(const PathPoint& from, const PathPoint& to) {
+bool AskedStateSearch::look_on(const PathPoint& from, const std::vector<PathPoint>& turns,
+                               const PathPoint& to) {
   found_.clear();
+  for (std::size_t piece = 0; piece <= turns.size(); ++piece)
+    if (!look_on_piece(piece, piece == 0 ? from : turns[piece - 1],
+                       piece == turns.size() ? to : turns[piece]))
+      return false;
+  return true;
+}
+
+bool AskedStateSearch::look_on_piece(std::size_t piece, const PathPoint& from, const PathPoint& to) {
   for (std::size_t i = 0; i < asked_.loads.size(); ++i) {
     if ((asked_.once && told_[i] != 0) || !passes(i, from, to)) continue;
     std::optional<PathPoint> state = point_at_load(solver_, from, to, asked_.loads[i].load);
     if (!state) return false;
-    found_.emplace_back(i, *std::move(state));
+    found_.push_back({piece, i, *std::move(state)});
   }
   return true;
 }
 
-std::optional<PathPoint> AskedStateSearch::state_on(std::size_t index, const PathPoint& from,
-                                                    const PathPoint& to) {
+std::optional<PathPoint> AskedStateSearch::state_on(std::size_t piece, std::size_t index,
+                                                    const PathPoint& from, const PathPoint& to) {
   const double load = asked_.loads[index].load;
   if (is_at(to, load)) return to;
   if (at_start_ && is_at(from, load)) return from;
   if (!passes(index, from, to)) return std::nullopt;
-  const auto found =
-      std::find_if(found_.begin(), found_.end(), [index](const auto& one) { return one.first == index; });
-  return found != found_.end() ? found->second : point_at_load(solver_, from, to, load);
+  const auto found = std::find_if(found_.begin(), found_.end(),
+                                  [&](const Found& one) { return one.piece == piece && one.index == index; });
+  return found != found_.end() ? found->state : point_at_load(solver_, from, to, load);
 }
 
-void AskedStateSearch::tell(const PathPoint& from, const PathPoint& to, const Receiver& receive) {
+void AskedStateSearch::tell(const PathPoint& from, const std::vector<PathPoint>& turns, const PathPoint& to,
+                            const Receiver& receive) {
+  for (std::size_t piece = 0; piece <= turns.size(); ++piece)
+    tell_piece(piece, piece == 0 ? from : turns[piece - 1], piece == turns.size() ? to : turns[piece],
+               receive);
+  found_.clear();
+}
+
+void AskedStateSearch::tell_piece(std::size_t piece, const PathPoint& from, const PathPoint& to,
+                                  const Receiver& receive) {
   for (std::size_t i = 0; i < asked_.loads.size(); ++i) {
     if (asked_.once && told_[i] != 0) continue;
-    const auto state = state_on(i, from, to);
+    const auto state = state_on(piece, i, from, to);
     if (!state) continue;
     told_[i] = 1;
     receive(asked_.loads[i].row, *state);
   }
-  found_.clear();
   at_start_ = false;
 }
 

@@ -34,6 +34,14 @@ struct TracedStep {
   std::vector<ContactChange> changes;
 };
 
+/// Limit points among the critical points of a step, up to its end.
+std::vector<PathPoint> turns_of(const std::vector<CriticalEvent>& events, const PathPoint& end) {
+  std::vector<PathPoint> out;
+  for (const CriticalEvent& event : events)
+    if (is_limit(event.type) && event.point.arc_length < end.arc_length) out.push_back(event.point);
+  return out;
+}
+
 /// The arc length just beyond another one.
 double beyond(double arc) { return std::nextafter(arc, std::numeric_limits<double>::infinity()); }
 
@@ -276,7 +284,7 @@ bool Tracer::record(const PathPoint& from, PathPoint& to, TracedStep& step,
   for (const ContactChange& change : step.changes)
     if (change.point.arc_length <= to.arc_length)
       tell([&](PathObserver& observer) { observer.on_contact(change); });
-  asked_.tell(from, to, [&](std::size_t row, const PathPoint& state) {
+  asked_.tell(from, turns_of(reached, to), to, [&](std::size_t row, const PathPoint& state) {
     tell([&](PathObserver& observer) { observer.on_asked(row, state); });
   });
   tell([&](PathObserver& observer) { observer.on_step(from, to); });
@@ -355,9 +363,10 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
   if (step.kink) measure_arc(from, step.located.events, to);
   const auto bound =
       step.located.same_path ? first_bound(solver_, rules_, from, to, step.kink) : std::nullopt;
+  const PathPoint& end = bound ? bound->point : to;
   // on the shortest steps no other state is found: the path goes on without it
   if (!step.located.same_path || (bound && !bound->found) ||
-      (!asked_.look_on(from, bound ? bound->point : to) && size.taken > Gradients::tiny)) {
+      (!asked_.look_on(from, turns_of(step.located.events, end), end) && size.taken > Gradients::tiny)) {
     follower_.reject(size);
     return false;
   }
