@@ -26,17 +26,20 @@ static ReactionLaw read_power(Object& in) {
   return law;
 }
 
+static void read_interpolation(Object& in, Interpolation& out) {
+  if (const auto value = in.find("interpolation")) {
+    static constexpr Named<Interpolation> kNames[] = {{"monotone_cubic", Interpolation::monotone_cubic},
+                                                      {"linear", Interpolation::linear}};
+    read_named(*value, kNames, out);
+  }
+}
+
 static ReactionLaw read_table(Object& in) {
   ReactionLaw law;
   law.type = ReactionLaw::Type::table;
   in.required("points", law.points);
   in.optional("factor", law.factor);
-  if (const auto value = in.find("interpolation")) {
-    static constexpr Named<ReactionLaw::Interpolation> kNames[] = {
-        {"monotone_cubic", ReactionLaw::Interpolation::monotone_cubic},
-        {"linear", ReactionLaw::Interpolation::linear}};
-    read_named(*value, kNames, law.interpolation);
-  }
+  read_interpolation(in, law.interpolation);
   return law;
 }
 
@@ -46,6 +49,28 @@ void read(const Value& value, ReactionLaw& out) {
   // a law that is not read stays a table without points, whose findings stand below the unreadable law: those
   // of a linear law would stand at `stiffness` beside it
   out.type = ReactionLaw::Type::table;
+  read_tagged(value, kForms, out);
+}
+
+static BendingLaw read_ramberg_osgood(Object& in) {
+  BendingLaw law;
+  law.type = BendingLaw::Type::ramberg_osgood;
+  in.required("moment", law.moment);
+  in.required("exponent", law.exponent);
+  in.optional("coefficient", law.coefficient);
+  return law;
+}
+
+static BendingLaw read_bending_table(Object& in) {
+  BendingLaw law;
+  in.required("points", law.points);
+  read_interpolation(in, law.interpolation);
+  return law;
+}
+
+void read(const Value& value, BendingLaw& out) {
+  static constexpr Named<BendingLaw (*)(Object&)> kForms[] = {{"ramberg_osgood", read_ramberg_osgood},
+                                                              {"table", read_bending_table}};
   read_tagged(value, kForms, out);
 }
 

@@ -13,6 +13,7 @@ inline void set_unread(AlongMember& out) { set_unread(out.constant); }
 
 /// Reads a law by its `type`.
 void read(const Value& value, ReactionLaw& out);
+void read(const Value& value, BendingLaw& out);
 
 /// Reads the stiffness "rigid" as infinity; false where the value is no text.
 bool read_rigid(const Value& value, double& out);

@@ -14,6 +14,7 @@
 #include "api/read_law.h"
 #include "api/read_parts.h"
 #include "solver/check/check_place.h"
+#include "solver/element/bending_curve.h"
 #include "solver/model/limits.h"
 #include "solver/model/profiles.h"
 #include "solver/model/section_shape.h"
@@ -271,11 +272,33 @@ void read_shaped_section(Object& in, Section& out) {
   set_stiffness(in, E, G, shape, out);
 }
 
+/// Reads a bending law if there is one. Returns whether it is a table, whose slope is the section's EI.
+bool read_bending(Object& in, Section& out) {
+  const auto value = in.find("bending");
+  if (!value) {
+    return false;
+  }
+  Object bending(*value);
+  bending.required("law", out.bending.emplace());
+  bending.finish();
+  return out.bending->type == BendingLaw::Type::table;
+}
+
+/// Reads EI, which a table of bending moments has by itself.
+void read_bending_stiffness(Object& in, bool has_table, AlongMember& out) {
+  if (!has_table) {
+    read_required_stiffness(in, "EI", out);
+  } else if (const auto value = in.find("EI")) {
+    value->report("ambiguous", "a table of bending moments has its own EI, its slope at the origin");
+  }
+}
+
 }  // namespace
 
 void read(const Value& value, Section& out) {
   Object in(value);
   in.required("id", out.id);
+  const bool has_table = read_bending(in, out);
   const auto has_any = [&in](std::initializer_list<std::string_view> keys) {
     return std::any_of(keys.begin(), keys.end(),
                        [&in](std::string_view key) { return in.is_readable() && in.value().member(key); });
@@ -294,7 +317,7 @@ void read(const Value& value, Section& out) {
   }
   if (by_stiffness || !by_material) {
     read_required_stiffness(in, "EA", out.EA);
-    read_required_stiffness(in, "EI", out.EI);
+    read_bending_stiffness(in, has_table, out.EI);
     read_shear_stiffness(in, out.GA);
     read_mass(in, nullptr, out);
   }
@@ -302,6 +325,9 @@ void read(const Value& value, Section& out) {
     read_shaped_section(in, out);
   } else if (by_material) {
     read_material_section(in, out);
+  }
+  if (has_table) {
+    out.EI = initial_slope(*out.bending);
   }
   in.finish();
 }

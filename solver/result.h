@@ -74,9 +74,10 @@ struct MemberMode {
 };
 /// Length of a pinned column with the bending stiffness of a member and its axial force at a buckling load.
 struct EffectiveLength {
-  std::string id;                ///< member
-  std::optional<double> length;  ///< pi sqrt(EI / N); empty: tension, little compression, or EI varies
-  std::optional<double> ratio;   ///< length over the length of the member's axis
+  std::string id;  ///< member
+  std::optional<double>
+      length;  ///< pi sqrt(EI / N); empty: tension, little compression, or EI varies, or a bending law
+  std::optional<double> ratio;  ///< length over the length of the member's axis
 };
 
 /// Buckling mode or direction of a path: largest displacement hypot(u, v) 1, first large component positive;

@@ -14,7 +14,8 @@ namespace snapthrough {
 /// infinite for members without a boundary layer.
 ///
 /// Bending decays as exp(-s sqrt(N / EI)) under tension N, and as exp(-s sqrt(K / GA)) on a foundation of
-/// modulus K in shearable members. In thin members these lengths are much shorter than all lengths known
+/// modulus K in shearable members. A bending law that softens to the slope c' concentrates the curvature on
+/// 1 / sqrt(c') of the member. In thin members these lengths are much shorter than all lengths known
 /// before the analysis.
 [[nodiscard]] std::vector<double> bending_decays(const Structure& structure, const Eigen::VectorXd& y);
 

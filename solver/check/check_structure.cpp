@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "solver/check/check_parts.h"
+#include "solver/element/bending_curve.h"
 #include "solver/model/limits.h"
 
 namespace snapthrough::checks {
@@ -193,6 +194,59 @@ void check_stiffness(const Place& place, const AlongMember& value) {
     check_number(place, value, require_positive);
 }
 
+/// Checks points (k, M) of a bending law: both ascend from the origin, and no slope is below
+/// kLeastBendingSlope of that at the origin. Returns whether they do.
+bool check_bending_points(const Place& place, const BendingLaw& law) {
+  require_count(place, law.points.size(), kMaxPointsAlong);
+  std::array<double, 2> before{0.0, 0.0};
+  double first_slope = 0.0;
+  for (std::size_t i = 0; i < law.points.size(); ++i) {
+    const auto& [curvature, moment] = law.points[i];
+    if (i == 0 && curvature == 0.0 && moment == 0.0) continue;
+    if (!require_not_negative(place / i / std::size_t{0}, curvature) ||
+        !require_positive(place / i / std::size_t{1}, moment))
+      return false;
+    if (curvature <= before[0]) {
+      (place / i / std::size_t{0}).report("not_increasing", "curvatures must ascend from 0");
+      return false;
+    }
+    const double slope = (moment - before[1]) / (curvature - before[0]);
+    if (first_slope == 0.0) first_slope = slope;
+    if (!(slope >= kLeastBendingSlope * first_slope)) {
+      (place / i / std::size_t{1})
+          .report(
+              "out_of_range",
+              "moments must ascend, by 1e-8 of the first slope at least: give a plateau a slope, for example "
+              "1e-6 of the first");
+      return false;
+    }
+    before = law.points[i];
+  }
+  if (first_slope == 0.0) place.report("empty", "a bending law needs a point beside the origin");
+  return first_slope > 0.0;
+}
+
+/// Checks a bending law, whose slope without moment is the section's EI.
+void check_bending(const Place& section, const Section& data) {
+  const BendingLaw& law = *data.bending;
+  const Place place = section / "bending" / "law";
+  if (data.EI.varies() || std::isinf(data.EI.constant)) {
+    (section / "bending").report("not_supported", "a section with a bending law needs a constant EI");
+    return;
+  }
+  if (law.type == BendingLaw::Type::table) {
+    if (!check_bending_points(place / "points", law)) return;
+    constexpr double kRounding = 1e-9;
+    const double slope = initial_slope(law);
+    if (std::abs(data.EI.constant - slope) > kRounding * slope)
+      (section / "EI").report("out_of_range", "EI must be the slope of the bending law at the origin");
+    return;
+  }
+  require_positive(place / "moment", law.moment);
+  require_not_negative(place / "coefficient", law.coefficient);
+  require_between(place / "exponent", law.exponent, 2.0, kMaxBendingExponent);
+}
+
 void check_sections(const Place& model, const Model& data, Names& names) {
   const Place sections = model / "sections";
   require_count(sections, data.sections.size(), kMaxSections);
@@ -204,7 +258,9 @@ void check_sections(const Place& model, const Model& data, Names& names) {
     const Section& section = data.sections[i];
     names.sections.add(place / "id", section.id);
     check_stiffness(place / "EA", section.EA);
-    check_stiffness(place / "EI", section.EI);
+    const bool has_table = section.bending && section.bending->type == BendingLaw::Type::table;
+    if (!has_table) check_stiffness(place / "EI", section.EI);
+    if (section.bending) check_bending(place, section);
     if (section.GA) {
       check_number(place / "GA", *section.GA, require_positive);
     }

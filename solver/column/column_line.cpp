@@ -110,7 +110,7 @@ bool LineReader::is_simple() const {
   for (const ResolvedMember& member : model_.members) {
     const Section& section = model_.sections[member.section];
     if (!std::holds_alternative<LineCurve>(member.curve) || is_semi_rigid(member) || section.GA ||
-        section.EA.varies() || section.EI.varies() || std::isinf(section.EA.constant) ||
+        section.bending || section.EA.varies() || section.EI.varies() || std::isinf(section.EA.constant) ||
         std::isinf(section.EI.constant))
       return false;
   }

@@ -113,13 +113,26 @@ ModelTraits traits_of(const Structure& structure) {
   ModelTraits out;
   out.one_sided =
       std::ranges::any_of(laws.foundations, one_sided) || std::ranges::any_of(laws.springs, one_sided);
-  out.has_curves = !structure.curves.empty();
-  out.curved_supports =
+  out.has_curves =
+      !structure.curves.empty() ||
+      std::ranges::any_of(structure.bending_curves, [](const auto& curve) { return curve != nullptr; });
+  out.changing_stiffness =
       out.has_curves || std::ranges::any_of(structure.foundation_laws, &FoundationLaw::follows_surface);
   out.symmetric = structure.follower_ends.empty() && structure.follower_forces.empty();
   out.has_mass = has_mass(*structure.model);
   out.loose = structure.geometry == Geometry::nonlinear && is_loose(*structure.model);
   return out;
+}
+
+/// Makes the curves of the sections' bending laws. An element that is like one of `like` refers to its curve.
+void set_bending_curves(const Structure* like, Structure& out) {
+  const std::vector<Section>& sections = out.model->sections;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const bool is_known =
+        like != nullptr && i < like->bending_curves.size() && like->model->sections[i] == sections[i];
+    out.bending_curves.push_back(is_known ? like->bending_curves[i]
+                                          : bending_curve_of(sections[i], out.scales));
+  }
 }
 
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
@@ -141,6 +154,7 @@ void fill(const Scales* scales, const Structure* like, Structure& out) {
   };
   std::ranges::for_each(foundations, keep);
   std::ranges::for_each(springs, keep);
+  set_bending_curves(like, out);
   bound_stiffness(out);
   number_unknowns(springs, out);
   SupportBuilder supports(foundations, springs, like, out);

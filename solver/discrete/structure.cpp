@@ -177,7 +177,8 @@ ElementShape shape_of_element(const Structure& structure, int element) {
   const MeshElement& e = structure.mesh.elements[element];
   const StressFreeAxis& axis = *structure.stress_free[e.member];
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
-  const Section& section = model.sections[model.members[e.member].section];
+  const int section_index = model.members[e.member].section;
+  const Section& section = model.sections[section_index];
   const double length = axis.perfect().length();
   const double L = structure.scales.length;
   const double F = structure.scales.force;
@@ -188,6 +189,7 @@ ElementShape shape_of_element(const Structure& structure, int element) {
        {&shape.angle, &shape.axial_compliance, &shape.shear_compliance, &shape.bending_compliance})
     list->reserve(points);
   shape.length = (e.to - e.from) * length / L;
+  shape.bending = structure.bending_curves[static_cast<std::size_t>(section_index)].get();
   std::array<double, 2> chord{0.0, 0.0};
   for (int q = 0; q < rule.order(); ++q) {
     const double fraction = e.from + rule.point(q) * (e.to - e.from);

@@ -145,6 +145,8 @@ struct Structure {
   /// Increase of these by foundations, with the largest EI: 2 sqrt(K EI) + G, or K of one against rotation.
   std::vector<double> foundation_loads;
   TouchingSupports touching;  ///< empty unless touching supports were searched for
+  /// Bending laws, one per section of the model; null for a section without one.
+  std::vector<std::shared_ptr<const BendingCurve>> bending_curves;
   /// Curves to which the laws of the elements, nodes and joints refer.
   std::vector<std::shared_ptr<const ReactionCurve>> curves;
   ModelTraits traits;

@@ -30,7 +30,8 @@ struct ElementData {
     bool shearable = false;
     Gauss cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
     std::array<double, kStrains> compliance{};
-    std::array<double, kStrains> root{};  ///< square root of the compliance
+    std::array<double, kStrains> root{};    ///< square root of the compliance
+    const BendingCurve* bending = nullptr;  ///< null: the curvature is compliance times moment
     int first_spring = 0, spring_count = 0;
     int first_contact = 0, contact_count = 0;
     bool curved = false;  ///< some support has a law with a curve, or the surface of a medium
@@ -86,6 +87,7 @@ struct ElementData {
   std::vector<Shape> shapes;
   std::vector<ElementDofs> dofs;
   bool pressed = false;  ///< a follower pressure acts on some element
+  bool bends = false;    ///< some element has a bending law
   int stiff = 0;         ///< number of unshearable elements
   int shearable = 0;     ///< number of shearable elements
   std::vector<Functional> springs;
@@ -240,6 +242,7 @@ void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
     shape.compliance[2 * P + q] = in.bending_compliance[q];
     shape.shearable = shape.shearable || in.shear_compliance[q] > 0.0;
   }
+  shape.bending = in.bending;
   for (int i = 0; i < ElementData<P>::kStrains; ++i) shape.root[i] = std::sqrt(shape.compliance[i]);
   append(shape, dofs);
 }
@@ -256,6 +259,7 @@ void ElementSetOf<P>::append(typename ElementData<P>::Shape shape, const Element
   shape.first_contact = static_cast<int>(contacts_.contacts().size());
   shape.spring_count = shape.contact_count = 0;
   shape.pressure = shape.constant_pressure = LinePressure{};
+  data_.bends = data_.bends || shape.bending != nullptr;
   shape.factor = shape.shearable ? data_.shearable++ : data_.stiff++;
   contacts_.add_element(shape.h, dofs);
   data_.shapes.push_back(shape);

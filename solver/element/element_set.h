@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/element/bending_curve.h"
 #include "solver/element/element_contacts.h"
 #include "solver/element/element_parts.h"
 #include "solver/element/foundation_contact.h"
@@ -51,9 +52,12 @@ struct ElementShape {
   std::vector<double> angle;  ///< angle of the stress-free section
   std::vector<std::array<double, 2>>
       t;  ///< derivative of the stress-free axis; h sum b_q t_q = chord exactly
-  std::vector<double> axial_compliance;    ///< axial strain e per axial force N
-  std::vector<double> shear_compliance;    ///< shear strain g per shear force Q; all zero: unshearable
-  std::vector<double> bending_compliance;  ///< curvature k per moment M
+  std::vector<double> axial_compliance;  ///< axial strain e per axial force N
+  std::vector<double> shear_compliance;  ///< shear strain g per shear force Q; all zero: unshearable
+  std::vector<double>
+      bending_compliance;  ///< curvature k per moment M, without moment where `bending` is set
+  /// Factor on the curvature by the moment, see BendingCurve; null: linear. Owned by Structure.
+  const BendingCurve* bending = nullptr;
 };
 
 /// Element after elimination of its interior, with rows for (u_a, m):

@@ -85,7 +85,9 @@ class ElementWorkOf final : public ElementWork {
   /// Factors of the last linearisation from which H is applied; H itself is not stored.
   struct Tangent {
     Gauss c, s, px, py;
-    Gauss n, t, w;                     ///< h b_q times N, Q and N E + Q G; zero for small displacements
+    Gauss n, t, w;  ///< h b_q times N, Q and N E + Q G; zero for small displacements
+    /// Square roots of the compliances at the state.
+    const std::array<double, kStrains>* root = nullptr;
     int first_row = 0, row_count = 0;  ///< range in rows_ of supports and pressure
   };
   /// Contribution stiffness (row.zeta)^2 / 2 to the second variation of the energy.
@@ -109,6 +111,15 @@ class ElementWorkOf final : public ElementWork {
                            const double* y, double* residual) const;
   void add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
                           const double* direction, double* out) const;
+  [[nodiscard]] BendingCurve::Values bending_at(const Shape& shape, const ElementDofs& dofs, int q,
+                                                const double* y) const;
+  void add_bending_residual(const Shape& shape, const ElementDofs& dofs, const double* y,
+                            double* residual) const;
+  void add_bending_product(const Shape& shape, const ElementDofs& dofs, const double* y,
+                           const double* direction, double* out) const;
+  void add_bending_rate(const Shape& shape, const ElementDofs& dofs, const double* y, const double* along,
+                        const double* direction, double* out) const;
+  [[nodiscard]] const std::array<double, kStrains>& roots_at(int element, const double* y);
   [[nodiscard]] StrainChange strain_change(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
                                            const double* along) const;
   void add_strain_rate(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
@@ -144,7 +155,7 @@ class ElementWorkOf final : public ElementWork {
   template <int N>
   void add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
   template <int N>
-  void add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S);
+  void add_rows(const Tangent& t, AugmentedMatrix<N>& S);
   void collect_rows(int element, const double* y, double* residual);
   void collect_masses(int element);
   [[nodiscard]] LinePressure pressure_of(const Shape& shape) const {
@@ -198,7 +209,8 @@ class ElementWorkOf final : public ElementWork {
   std::vector<char> parts_known_;
   bool kinematics_linear_ = false;  ///< whether these were for small displacements
   std::vector<Tangent> tangents_;
-  std::vector<StrainRow> rows_;  ///< rows of all elements from the last linearisation
+  std::vector<std::array<double, kStrains>> roots_;  ///< Tangent::root of elements with a bending law
+  std::vector<StrainRow> rows_;                      ///< rows of all elements from the last linearisation
   /// Element and functional of each support on moving ground that acted at the last linearisation.
   std::vector<std::pair<int, Functional>> on_ground_;
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
@@ -266,15 +278,15 @@ void ElementWorkOf<P>::add_end_columns(const Shape& shape, const Tangent& t, Aug
   constexpr int A = N;      // index of u_a
   constexpr int M = N + 3;
   for (int q = 0; q < P; ++q) {
-    const double e = shape.hb[q] * shape.root[q];
+    const double e = shape.hb[q] * (*t.root)[q];
     S(q, M) = -e * t.c[q];
     S(q, M + 1) = -e * t.s[q];
     if constexpr (N == kStrains) {
-      const double g = shape.hb[q] * shape.root[P + q];
+      const double g = shape.hb[q] * (*t.root)[P + q];
       S(P + q, M) = g * t.s[q];
       S(P + q, M + 1) = -g * t.c[q];
     }
-    S(K + q, M + 2) = -shape.hb[q] * shape.root[2 * P + q];
+    S(K + q, M + 2) = -shape.hb[q] * (*t.root)[2 * P + q];
   }
   double x = 0.0;
   double y = 0.0;
@@ -291,7 +303,7 @@ void ElementWorkOf<P>::add_end_columns(const Shape& shape, const Tangent& t, Aug
     }
   }
   for (int r = 0; r < P; ++r) {
-    const double f = -shape.h * shape.root[2 * P + r];
+    const double f = -shape.h * (*t.root)[2 * P + r];
     S(K + r, M) = f * kx[r];
     S(K + r, M + 1) = f * ky[r];
   }
@@ -309,14 +321,14 @@ void ElementWorkOf<P>::add_geometric(const Shape& shape, const Tangent& t, Augme
   for (int q = 0; q < P; ++q) {
     turn[q].x.fill(0.0);
     turn[q].weight = t.w[q];
-    for (int r = 0; r < P; ++r) turn[q].x[K + r] = shape.h * a_[q][r] * shape.root[2 * P + r];
+    for (int r = 0; r < P; ++r) turn[q].x[K + r] = shape.h * a_[q][r] * (*t.root)[2 * P + r];
     turn[q].x[N + 2] = 1.0;
     const auto add = [&](int row, double f) {
       for (int b = K / kBlock * kBlock; b < AugmentedMatrix<N>::kWidth; b += kBlock)
         store(ConstBlock(&S(row, b)) + f * ConstBlock(&turn[q].x[b]), &S(row, b));
     };
-    add(q, -t.t[q] * shape.root[q]);
-    if constexpr (N == kStrains) add(P + q, t.n[q] * shape.root[P + q]);
+    add(q, -t.t[q] * (*t.root)[q]);
+    if constexpr (N == kStrains) add(P + q, t.n[q] * (*t.root)[P + q]);
   }
   S.template add_squares<K>(turn.data(), P);
 }
@@ -324,7 +336,7 @@ void ElementWorkOf<P>::add_geometric(const Shape& shape, const Tangent& t, Augme
 /// Adds the scaled rows of supports and pressure.
 template <int P>
 template <int N>
-void ElementWorkOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) {
+void ElementWorkOf<P>::add_rows(const Tangent& t, AugmentedMatrix<N>& S) {
   auto& scaled = [this]() -> auto& {
     if constexpr (N == kStrains)
       return shearable_rows_;
@@ -338,7 +350,7 @@ void ElementWorkOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedM
     const StrainRow& in = rows_[t.first_row + k];
     auto& x = scaled[k].x;
     scaled[k].weight = in.stiffness;
-    for (int i = 0; i < N; ++i) x[i] = shape.root[active<N>(i)] * in.row[active<N>(i)];
+    for (int i = 0; i < N; ++i) x[i] = (*t.root)[active<N>(i)] * in.row[active<N>(i)];
     for (int c = 0; c < 3; ++c) x[N + c] = in.row[kStrains + c];
     for (int i = N + 3; i < AugmentedMatrix<N>::kWidth; ++i) x[i] = 0.0;
   }
@@ -376,6 +388,7 @@ void ElementWorkOf<P>::linearise_element(int element, const double* y, double* r
   const Kinematics& kin = kinematics_[element];
   add_strain_residual(shape, dofs, kin, y, residual);
   Tangent& t = tangents_[element];
+  t.root = shape.bending != nullptr ? &roots_at(element, y) : &shape.root;
   t.c = kin.c;
   t.s = kin.s;
   for (int q = 0; q < P; ++q) {
@@ -392,7 +405,7 @@ void ElementWorkOf<P>::linearise_element(int element, const double* y, double* r
   for (int i = 0; i < N; ++i) S(i, i) = shape.hb[i % P];
   add_end_columns<N>(shape, t, S);
   if (!linear_) add_geometric<N>(shape, t, S);
-  if (t.row_count > 0) add_rows<N>(shape, t, S);
+  if (t.row_count > 0) add_rows<N>(t, S);
   std::array<double, N> pivots;
   interior.factor.factorise(S, pivots);
   out.negative = 0;
@@ -437,6 +450,7 @@ void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& fa
   find_layers(y.data());
   add_coupling_forces(y.data(), residual.data());
   tangents_.resize(shapes_.size());
+  if (data_.bends) roots_.resize(shapes_.size());
   stiff_.resize(static_cast<std::size_t>(data_.stiff));
   shearable_.resize(static_cast<std::size_t>(data_.shearable));
   rows_.clear();
@@ -488,6 +502,7 @@ std::unique_ptr<ElementWork> ElementSetOf<P>::make_work() const {
 
 }  // namespace snapthrough
 
+#include "solver/element/element_work_bending.h"
 #include "solver/element/element_work_layers.h"
 #include "solver/element/element_work_rates.h"
 #include "solver/element/element_work_solve.h"

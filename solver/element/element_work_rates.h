@@ -159,7 +159,7 @@ void ElementWorkOf<P>::add_tangent_changes(const Eigen::VectorXd& y, const LoadF
                                            const Eigen::Ref<const Eigen::MatrixXd>& directions,
                                            Eigen::MatrixXd& out) {
   begin(rates, regime);
-  if (linear_ && contacts_.empty() && springs_.empty()) return;
+  if (linear_ && contacts_.empty() && springs_.empty() && !data_.bends) return;
   find_kinematics(y);
   find_layers(y.data());
   if (!regime_.is_frozen() && !regime_.bilateral()) add_layer_changes(along.data(), directions, out);
@@ -174,6 +174,7 @@ void ElementWorkOf<P>::add_tangent_changes(const Eigen::VectorXd& y, const LoadF
       const double* direction = directions.col(i).data();
       double* product = out.col(i).data();
       if (!linear_) add_strain_rate(shape, dofs, kin, y.data(), change, direction, product);
+      if (shape.bending != nullptr) add_bending_rate(shape, dofs, y.data(), along.data(), direction, product);
       if (pressure.acts()) add_pressure_product(shape, dofs, pressure, direction, product);
       add_acting_product(dofs, direction, product);
     }

@@ -71,7 +71,7 @@ void ElementWorkOf<P>::reduce_element(int element, const ColumnLanes& rhs, Inter
   for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs.m + c];
   if (strained) subtract_strains(shape, tangents_[element], d, tau, out.rm);
   typename AugmentedFactor<N>::Vectors x;
-  for (int i = 0; i < N; ++i) x[i] = shape.root[active<N>(i)] * tau[active<N>(i)];
+  for (int i = 0; i < N; ++i) x[i] = (*tangents_[element].root)[active<N>(i)] * tau[active<N>(i)];
   for (int i = N; i < N + 6; ++i) x[i] = Lanes::Zero();
   interior.factor.forward(x);
   for (int c = 0; c < 3; ++c) {
@@ -108,8 +108,8 @@ void ElementWorkOf<P>::recover_element(int element, const Interior<N>& interior,
   interior.factor.backward(interior.reduced, y);
   for (int i = 0; i < N; ++i) {
     const int z = active<N>(i);
-    zeta[z] += shape.root[z] * y[i];
-    x.store(dofs.s + z, y[i] / shape.root[z]);
+    zeta[z] += (*t.root)[z] * y[i];
+    x.store(dofs.s + z, y[i] / (*t.root)[z]);
   }
   GaussLanes b;
   for (int q = 0; q < P; ++q) {

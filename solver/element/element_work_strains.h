@@ -113,6 +113,7 @@ void ElementWorkOf<P>::add_strain_residual(const Shape& shape, const ElementDofs
     fm[c] += gap[c];
   }
   residual[dofs.a[2]] += moment_a;
+  if (shape.bending != nullptr) add_bending_residual(shape, dofs, y, residual);
 }
 
 /// Adds the beam's part of the tangent times a direction.
@@ -156,6 +157,7 @@ void ElementWorkOf<P>::add_strain_product(const Shape& shape, const ElementDofs&
     out[dofs.b[k]] += dm[k];
     out[dofs.m + k] += gap[k];
   }
+  if (shape.bending != nullptr) add_bending_product(shape, dofs, y, direction, out);
 }
 
 }  // namespace snapthrough

@@ -27,7 +27,7 @@ constexpr double kIdle = 1e-6;
 /// linear, bilateral supports only.
 Regime BucklingPencil::regime() const {
   Regime regime;
-  if (!structure_.traits.one_sided && !structure_.traits.curved_supports) return regime;
+  if (!structure_.traits.one_sided && !structure_.traits.changing_stiffness) return regime;
   regime.contact = Regime::Contact::frozen;
   regime.frozen = &contact_;
   return regime;
@@ -106,7 +106,7 @@ std::optional<VectorXd> BucklingPencil::state_at(double load) {
   if (!state) return std::nullopt;
   y = state->y;
   // the state is exact to five digits, which is enough for its contact
-  if (!structure_.traits.curved_supports || converges(metric.norm(y, 0.0))) return y;
+  if (!structure_.traits.changing_stiffness || converges(metric.norm(y, 0.0))) return y;
   return state->y;
 }
 
@@ -115,7 +115,7 @@ bool BucklingPencil::freeze_contact(double load) {
   const std::optional<VectorXd> y = state_at(load);
   if (!y) return false;
   contact_ = problem_.contact().frozen(*y, true);
-  if (structure_.traits.curved_supports) contact_.linearised_at = *y;
+  if (structure_.traits.changing_stiffness) contact_.linearised_at = *y;
   marks_ = problem_.contact().marks_at(*y, true);
   return true;
 }
@@ -141,7 +141,7 @@ bool BucklingPencil::set_prestress(double reference) {
   const SharedHolds soft = held_softly(problem_);
   problem_.set_holds(soft);
   const double load = sense_ * reference;
-  if ((structure_.traits.one_sided || structure_.traits.curved_supports) && !freeze_contact(load))
+  if ((structure_.traits.one_sided || structure_.traits.changing_stiffness) && !freeze_contact(load))
     return false;
   if (soft) {
     Regime small = regime();

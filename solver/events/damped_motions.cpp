@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 /// Imaginary part of s over its magnitude below which a vibration counts as not oscillating.
 constexpr double kOscillates = 1e-6;
 
-/// Y^T K X: section forces of the motions times their strains, and moments of joints times their rotations. A
-/// joint with a law has its slope at the origin, so that damping never excites.
+/// Y^T K X: section forces of the motions times their strains, and moments of joints times their rotations.
+/// Laws of sections and joints have their slope at the origin, so that damping never excites.
 MatrixXd elastic_work(const Structure& structure, const MatrixXd& Y, const MatrixXd& X) {
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const int p = rule.order();
@@ -26,11 +26,15 @@ MatrixXd elastic_work(const Structure& structure, const MatrixXd& Y, const Matri
   for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
     const ElementShape shape = shape_of_element(structure, static_cast<int>(e));
     const Index s = structure.dofs[e].s;
+    const Index v = structure.dofs[e].v;
     for (int q = 0; q < p; ++q) {
       const double hb = shape.length * rule.weight(q);
       const double compliance[] = {shape.axial_compliance[q], shape.shear_compliance[q],
                                    shape.bending_compliance[q]};
-      for (int c = 0; c < 3; ++c)
+      // with a bending law, moments are those of the slope at the state: curvatures take their place
+      const bool bends = shape.bending != nullptr;
+      if (bends) out += hb / compliance[2] * Y.row(v + 2 * p + q).transpose() * X.row(v + 2 * p + q);
+      for (int c = 0; c < (bends ? 2 : 3); ++c)
         out += hb * compliance[c] * Y.row(s + c * p + q).transpose() * X.row(s + c * p + q);
     }
   }

@@ -142,17 +142,6 @@ class MeshChoice {
   std::array<double, 2> finest_{};
 };
 
-void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, const std::vector<int>& counts) {
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const double width = breaks[i + 1] - breaks[i];
-    for (int e = 0; e < counts[i]; ++e) {
-      const double from = breaks[i] + width * e / counts[i];
-      const double to = e + 1 == counts[i] ? breaks[i + 1] : breaks[i] + width * (e + 1) / counts[i];
-      mesh.elements.push_back({member, from, to});
-    }
-  }
-}
-
 /// Halves an element towards its ends at places of action, down to a width.
 void add_layered(std::vector<MeshElement>& out, const MeshElement& element, bool at_start, bool at_end,
                  double width) {
@@ -163,6 +152,47 @@ void add_layered(std::vector<MeshElement>& out, const MeshElement& element, bool
   }
   add_layered(out, {element.member, element.from, middle}, at_start, false, width);
   add_layered(out, {element.member, middle, element.to}, false, at_end, width);
+}
+
+/// Adds the elements of a member: those at `breaks` are halved towards them, down to the width `layer`.
+void add_elements(std::vector<MeshElement>& out, int member, const std::vector<double>& breaks,
+                  const std::vector<int>& counts, double layer) {
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double width = breaks[i + 1] - breaks[i];
+    for (int e = 0; e < counts[i]; ++e) {
+      const bool is_last = e + 1 == counts[i];
+      const double from = breaks[i] + width * e / counts[i];
+      const double to = is_last ? breaks[i + 1] : breaks[i] + width * (e + 1) / counts[i];
+      add_layered(out, {member, from, to}, e == 0, is_last, layer);
+    }
+  }
+}
+
+/// Width of elements that resolve a boundary layer. @param decay its decay length over that of the member
+double width_at_layer(double decay) {
+  return std::max(MeshRules::layer_width, MeshRules::first.decay_lengths * decay);
+}
+
+/// Width of the elements at places of action on a member with a section: the share of the member on which a
+/// bending law concentrates the curvature, see bending_decays(). Infinite without a law.
+double layer_of(const Section& section) {
+  if (!section.bending) return std::numeric_limits<double>::infinity();
+  const BendingLaw& law = *section.bending;
+  double softening = 1.0 + law.coefficient * law.exponent;  // k'(M) at M = law.moment, over that at M = 0
+  if (law.type == BendingLaw::Type::table) {
+    std::array<double, 2> before{0.0, 0.0};
+    double stiffest = 0.0;
+    double softest = std::numeric_limits<double>::infinity();
+    for (const auto& point : law.points) {
+      if (point[0] == 0.0) continue;
+      const double slope = (point[1] - before[1]) / (point[0] - before[0]);
+      if (stiffest == 0.0) stiffest = slope;
+      softest = std::min(softest, slope);
+      before = point;
+    }
+    softening = stiffest / softest;
+  }
+  return width_at_layer(1.0 / std::sqrt(softening));
 }
 
 }  // namespace
@@ -204,7 +234,8 @@ Mesh make_mesh(const ResolvedModel& model, const Discretization& discretization,
     } else {
       counts = choice.counts(actions[m], *axes[m], breaks);
     }
-    add_elements(mesh, static_cast<int>(m), breaks, counts);
+    const double layer = is_given ? std::numeric_limits<double>::infinity() : layer_of(*actions[m].section);
+    add_elements(mesh.elements, static_cast<int>(m), breaks, counts, layer);
   }
   mesh.first.push_back(static_cast<int>(mesh.elements.size()));
   return mesh;
@@ -223,8 +254,10 @@ MeshSize mesh_size(const ResolvedModel& model, const Discretization& discretizat
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     WorkLimit::poll();
     const AxisCurve axis = axis_of(model, model.members[m]);
-    for (const int count : choice.counts(actions[m], axis, breaks_of(actions[m], axis)))
-      size.elements += count;
+    const std::vector<double> breaks = breaks_of(actions[m], axis);
+    std::vector<MeshElement> elements;
+    add_elements(elements, 0, breaks, choice.counts(actions[m], axis, breaks), layer_of(*actions[m].section));
+    size.elements += static_cast<long long>(elements.size());
   }
   return size;
 }
@@ -287,8 +320,7 @@ Mesh layered_mesh(const Mesh& mesh, const ResolvedModel& model, const Axes& axes
       return std::any_of(breaks.begin(), breaks.end(),
                          [at](double b) { return std::abs(at - b) <= kOnePlace; });
     };
-    const double width =
-        std::max(MeshRules::layer_width, MeshRules::first.decay_lengths * decays[m] / axes[m]->length());
+    const double width = width_at_layer(decays[m] / axes[m]->length());
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       const MeshElement& element = mesh.elements[static_cast<std::size_t>(e)];
       add_layered(out.elements, element, is_break(element.from), is_break(element.to), width);

@@ -59,7 +59,8 @@ enum class MeshUse {
 /// half waves or intervals of imperfections. If the mesh will be refined, one-sided foundations get no more
 /// elements than the accuracy needs and act with the stiffness that these resolve (`Mesh::decay_lengths`);
 /// the error in a load is of third order in their length. Rigid foundations get them on every mesh that is
-/// not fixed.
+/// not fixed. A bending law that softens gets short elements at places of action on every mesh that is not
+/// fixed.
 /// @param use purpose of the mesh, unless it is fixed
 [[nodiscard]] Mesh make_mesh(const ResolvedModel& model, const Discretization& discretization,
                              const Axes& axes, MeshUse use = MeshUse::final);

@@ -27,6 +27,10 @@ inline constexpr std::size_t kMaxUnitLength = 100;   ///< characters of a unit, 
 inline constexpr std::size_t kMaxWorstMembers = 32;  ///< members of a model with a worst imperfection
 inline constexpr std::size_t kMaxPointsAlong =
     1'000;  ///< points of a table of a law, or of a number along a member
+inline constexpr double kMaxBendingExponent = 100.0;
+/// Slope of a bending law's table over its slope without moment, from which an equation of the curvature by
+/// the moment keeps half its digits.
+inline constexpr double kLeastBendingSlope = 1e-8;
 inline constexpr int kMaxHalfWaves = 1'000;
 inline constexpr int kMaxModes = 1'000;  ///< number of buckling modes, and of a mode imperfection
 inline constexpr std::size_t kMaxMasses = 20'000;

@@ -49,17 +49,38 @@ struct Node {
   bool operator==(const Node&) const = default;
 };
 
+/// How a table is read between its points.
+enum class Interpolation { monotone_cubic, linear };
+
+/// @brief Curvature k of a section as a function of its bending moment M >= 0; k(-M) = -k(M). Unloading
+/// follows the curve back.
+struct BendingLaw {
+  enum class Type {
+    ramberg_osgood,  ///< k = (M + coefficient moment (M / moment)^exponent) / EI
+    table            ///< k through `points`, with the last slope beyond the last point
+  };
+  Type type = Type::table;
+  double moment = 0.0;       ///< > 0
+  double coefficient = 1.0;  ///< >= 0
+  double exponent = 2.0;     ///< in [2, kMaxBendingExponent]
+  /// (k, M) from the origin on, which may be left out; both ascend. A cubic gives k by M.
+  std::vector<std::array<double, 2>> points;
+  Interpolation interpolation = Interpolation::monotone_cubic;
+  bool operator==(const BendingLaw&) const = default;
+};
+
 /// Elastic section, which may taper: fractions of its numbers are those of each member that has the section.
 /// No GA means unshearable (the limit GA -> infinity is taken exactly).
 struct Section {
   std::string id;
   AlongMember EA;                        ///< axial stiffness, > 0
-  AlongMember EI;                        ///< bending stiffness, > 0
+  AlongMember EI;                        ///< bending stiffness, > 0; with a law dM / dk without moment
   std::optional<AlongMember> GA;         ///< shear stiffness (shear area included), > 0
   std::optional<AlongMember> mass = {};  ///< mass per undeformed length, >= 0; needed by self weight
   /// Moment of inertia of the mass about the section's centre, per undeformed length; empty: zero.
   std::optional<AlongMember> rotary_inertia = {};
-  std::optional<double> expansion = {};  ///< thermal strain per degree; needed by temperature loads
+  std::optional<double> expansion = {};    ///< thermal strain per degree; needed by temperature loads
+  std::optional<BendingLaw> bending = {};  ///< empty: the curvature is M / EI
   bool operator==(const Section&) const = default;
 };
 
@@ -103,8 +124,7 @@ struct ReactionLaw {
     power,       ///< p = min(stiffness w, capacity (w / reference)^exponent, capacity)
     table        ///< p = factor times a curve through `points`, constant beyond the last
   };
-  /// How a table is read between its points.
-  enum class Interpolation { monotone_cubic, linear };
+  using Interpolation = snapthrough::Interpolation;
   Type type = Type::linear;
   AlongMember stiffness;                      ///< slope at w = 0
   AlongMember capacity;                       ///< largest p

@@ -10,10 +10,11 @@ namespace snapthrough {
 struct ModelTraits {
   /// Some support acts on one side only: the tangent jumps where contact begins or ends.
   bool one_sided = false;
-  /// The law of some support or joint has a curve, at whose bends the tangent may jump.
+  /// The law of some support, joint or section has a curve, at whose bends the tangent may jump.
   bool has_curves = false;
-  /// The tangent of some support or joint changes with the displacements: a law with a curve, or a surface.
-  bool curved_supports = false;
+  /// The stiffness of some support, joint or section changes with the state: a law with a curve, or a
+  /// surface.
+  bool changing_stiffness = false;
   /// All actions have a potential: the tangent is symmetric, and stability is lost by divergence alone.
   bool symmetric = true;
   bool has_mass = false;

@@ -106,9 +106,10 @@ std::vector<EffectiveLength> effective_lengths(const ResolvedModel& model, const
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     EffectiveLength& one = out.emplace_back();
     one.id = model.members[m].id;
-    const AlongMember& EI = model.sections[model.members[m].section].EI;
+    const Section& section = model.sections[model.members[m].section];
+    const AlongMember& EI = section.EI;
     if (!(compressions[m] > ModeLimits::small_compression * largest)) continue;
-    if (EI.varies() || std::isinf(EI.constant)) continue;
+    if (EI.varies() || std::isinf(EI.constant) || section.bending) continue;
     one.length = std::numbers::pi * std::sqrt(EI.constant / compressions[m]);
     one.ratio = *one.length / lengths[m];
   }
@@ -163,8 +164,10 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
     for (int q = 0; q < p; ++q) {
       const double bending = length * forces[2 * p + q];
       const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
-      double density =
-          forces[q] * forces[q] / section.EA.at(fraction) + bending * bending / section.EI.at(fraction);
+      const double curvature = mode[structure.dofs[e].v + 2 * p + q];
+      const double bent = section.bending ? forces[2 * p + q] * curvature / structure.scales.force
+                                          : bending * bending / section.EI.at(fraction);
+      double density = forces[q] * forces[q] / section.EA.at(fraction) + bent;
       if (section.GA) density += forces[p + q] * forces[p + q] / section.GA->at(fraction);
       energy[member] += h * rule.weight(q) * density;
     }

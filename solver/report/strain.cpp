@@ -19,6 +19,12 @@ StrainGauge::Compliance StrainGauge::compliance_at(const MeshElement& cell, doub
           F * structure_.scales.length / std::sqrt(section.EI.at(fraction) * EA)};
 }
 
+double StrainGauge::elastic_moment(int member, double moment) const {
+  const auto section = static_cast<std::size_t>(model_.members[static_cast<std::size_t>(member)].section);
+  const BendingCurve* curve = structure_.bending_curves[section].get();
+  return curve == nullptr ? moment : curve->at(moment).moment;
+}
+
 bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const {
   const CollocationRule& rule = CollocationRule::of(structure_.mesh.order);
   const int p = rule.order();
@@ -30,7 +36,7 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
       const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
       const Compliance by = compliance_at(cell, fraction);
       const double strain = std::max({by.axial * std::abs(forces[q]), by.shear * std::abs(forces[p + q]),
-                                      by.bending * std::abs(forces[2 * p + q])});
+                                      by.bending * std::abs(elastic_moment(cell.member, forces[2 * p + q]))});
       if (strain <= largest.strain) continue;
       largest = {strain, model_.members[cell.member].id, fraction * structure_.axes[cell.member]->length()};
       raised = true;
@@ -57,7 +63,7 @@ bool StrainGauge::is_beyond_theory(const Eigen::VectorXd& y) const {
     for (int q = 0; q < p; ++q) {
       const Compliance by = compliance_at(cell, cell.from + rule.point(q) * (cell.to - cell.from));
       if (by.axial * std::abs(forces[q]) > StrainLimits::largest ||
-          by.bending * std::abs(forces[2 * p + q]) > StrainLimits::largest)
+          by.bending * std::abs(elastic_moment(cell.member, forces[2 * p + q])) > StrainLimits::largest)
         return true;
     }
   }

@@ -29,8 +29,8 @@ struct LargestStrain {
 
 /// @brief Evaluates strains at the elements' Gauss points from the section forces, and those of rods.
 ///
-/// A strain is the largest of |N| / EA, |Q| / GA and |M| / EI sqrt(EI / EA); the last is a lower bound of the
-/// bending strain in the outer fibre, for any section depth.
+/// A strain is the largest of |N| / EA, |Q| / GA and |k| sqrt(EI / EA) with the curvature k; the last is a
+/// lower bound of the bending strain in the outer fibre, for any section depth.
 class StrainGauge {
  public:
   /// @param structure kept by reference; must outlive this object
@@ -47,6 +47,8 @@ class StrainGauge {
     double axial, shear, bending;
   };
   [[nodiscard]] Compliance compliance_at(const MeshElement& cell, double fraction) const;
+  /// Moment that gives the curvature of a member by its bending stiffness without moment.
+  [[nodiscard]] double elastic_moment(int member, double moment) const;
 
   const Structure& structure_;
   const ResolvedModel& model_;

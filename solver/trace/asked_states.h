@@ -38,7 +38,7 @@ class AskedStateSearch {
   /// A state between the ends of a step.
   struct Found {
     std::size_t piece = 0;  ///< number of limit points before it on the step
-    std::size_t index = 0;  ///< of its load
+    std::size_t index = 0;  ///< index of its load
     PathPoint state;
   };
   [[nodiscard]] bool look_on_piece(std::size_t piece, const PathPoint& from, const PathPoint& to);

@@ -40,6 +40,34 @@ Section section_of(const json& section) {
   return outcome.request->model.sections[0];
 }
 
+TEST(BendingLaw, IsRead) {
+  const json power = {{"type", "ramberg_osgood"}, {"moment", 3.0}, {"exponent", 5.0}};
+  const Section own = section_of({{"EA", 4.0}, {"EI", 7.0}, {"bending", {{"law", power}}}});
+  ASSERT_TRUE(own.bending);
+  EXPECT_EQ(own.bending->type, BendingLaw::Type::ramberg_osgood);
+  EXPECT_EQ(own.bending->moment, 3.0);
+  EXPECT_EQ(own.bending->exponent, 5.0);
+  EXPECT_EQ(own.bending->coefficient, 1.0);
+  EXPECT_EQ(own.EI.constant, 7.0);
+  const json table = {
+      {"type", "table"}, {"points", {{0, 0}, {0.5, 2}, {1.5, 3}}}, {"interpolation", "linear"}};
+  const Section by_table = section_of({{"EA", 4.0}, {"bending", {{"law", table}}}});
+  EXPECT_EQ(by_table.bending->interpolation, Interpolation::linear);
+  EXPECT_EQ(by_table.bending->points.size(), 3u);
+  EXPECT_DOUBLE_EQ(by_table.EI.constant, 4.0);
+}
+
+/// The table of a section by material replaces E I, and nothing else.
+TEST(BendingLaw, TableReplacesTheEIOfAMaterial) {
+  const json table = {{"type", "table"}, {"points", {{0.5, 2}}}};
+  const Section steel =
+      section_of({{"E", 10.0}, {"A", 2.0}, {"I", 3.0}, {"density", 5.0}, {"bending", {{"law", table}}}});
+  EXPECT_DOUBLE_EQ(steel.EI.constant, 4.0);
+  EXPECT_DOUBLE_EQ(steel.EA.constant, 20.0);
+  EXPECT_DOUBLE_EQ(steel.mass->constant, 10.0);
+  EXPECT_DOUBLE_EQ(steel.rotary_inertia->constant, 15.0);
+}
+
 TEST(ShapedSection, HasTheStiffnessOfItsShape) {
   const Section rectangle = section_of(
       {{"E", 200.0}, {"nu", 0.25}, {"shape", {{"type", "rectangle"}, {"width", 2}, {"depth", 3}}}});

@@ -13,14 +13,19 @@ const shapes: Schemas['Shape'][] = [
   {type: 'wall', thickness: 0.4, plane_strain: true, nu: 0.2},
 ];
 
+const bends: Schemas['PowerBending'] = {law: {type: 'ramberg_osgood', moment: 5, exponent: 7, coefficient: 0.5}};
+const table: Schemas['TableBending'] = {law: {type: 'table', points: [[0, 0], [0.1, 1], [0.3, 1.5]], interpolation: 'linear'}};
+
 const sections: Schemas['Section'][] = [
-  {id: 'stiffness', EA: 1e6, EI: 10, GA: 1e5, mass: 0.1, rotary_inertia: 1e-4, expansion: 1e-5},
+  {id: 'stiffness', EA: 1e6, EI: 10, GA: 1e5, mass: 0.1, rotary_inertia: 1e-4, expansion: 1e-5, bending: bends},
+  {id: 'table', EA: 1e6, GA: 1e5, mass: 0.1, rotary_inertia: 1e-4, expansion: 1e-5, bending: table},
   {id: 'tapering', EA: {along: [[0, 1e6], [1, 2.5e5]], power: 2}, EI: {along: [[0, 10], [1, 0.625]], power: 4},
     GA: {along: [[0, 1e5], [1, 2.5e4]], power: 2}, mass: {along: [[0, 0.1], [1, 0.025]]}},
   {id: 'rigid', EA: 'rigid', EI: 'rigid', GA: 'rigid'},
-  {id: 'material', E: 2e8, A: 1e-2, I: 1e-5, nu: 0.3, shear_area: 8e-3, density: 7.85, expansion: 1e-5},
-  {id: 'profile', E: 2.1e8, profile: 'IPE 300', unit: 'm', nu: 0.3, mass: 0.0422, expansion: 1e-5},
-  ...shapes.map((shape, i): Schemas['Section'] => ({id: `shape ${i}`, E: 3e7, shape, G: 1.2e7, density: 2.5, expansion: 1e-5})),
+  {id: 'material', E: 2e8, A: 1e-2, I: 1e-5, nu: 0.3, shear_area: 8e-3, density: 7.85, expansion: 1e-5, bending: table},
+  {id: 'profile', E: 2.1e8, profile: 'IPE 300', unit: 'm', nu: 0.3, mass: 0.0422, expansion: 1e-5, bending: bends},
+  ...shapes.map((shape, i): Schemas['Section'] => ({id: `shape ${i}`, E: 3e7, shape, G: 1.2e7, density: 2.5, expansion: 1e-5,
+    bending: bends})),
 ];
 
 const curves: Schemas['Curve'][] = [

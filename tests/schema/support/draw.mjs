@@ -170,6 +170,8 @@ export class Drawer {
       if ('mass' in one) delete one.density;
       for (const number of [one.EA, one.EI, one.GA, one.mass, one.rotary_inertia]) ascend(number);
       if ('nu' in one) delete one.G;
+      if (one.bending && one.EI?.along) one.EI = 1;
+      if (one.bending?.law.points) one.bending.law.points = one.bending.law.points.map((unused, i) => [i + 1, i + 1]);
       if (one.shape?.type === 'tube') one.shape.thickness = one.shape.diameter / 4 || one.shape.diameter;
       if (one.shape?.type === 'i_section') {
         Object.assign(one.shape, {web: one.shape.width / 4 || one.shape.width, flange: one.shape.depth / 4 || one.shape.depth});
