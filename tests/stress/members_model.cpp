@@ -20,6 +20,7 @@
 #include "tests/stress/broad_model.h"
 #include "tests/stress/laws_model.h"
 #include "tests/stress/random_numbers.h"
+#include "tests/stress/rod_law.h"
 
 namespace snapthrough::testing {
 namespace {
@@ -66,6 +67,9 @@ class MembersDrawer {
   void drop_moments();
   void brace(int number);
   void node_spring(int number);
+  [[nodiscard]] BendingLaw bending_table(double EI, double moment);
+  [[nodiscard]] bool may_yield(const Section& section);
+  void bending_laws();
 
   Random random_;
   RandomRequest out_;
@@ -320,6 +324,63 @@ void MembersDrawer::node_spring(int number) {
   model().springs.push_back(spring);
 }
 
+/// Table of one to four points that softens in most of its parts.
+/// @param EI slope of its first part
+/// @param moment size of the moment at its first point
+BendingLaw MembersDrawer::bending_table(double EI, double moment) {
+  constexpr double kLeastSlope = 1e-4;
+  constexpr double kPlateau = 1e-6;
+  BendingLaw out;
+  out.interpolation = random_.chance(0.5) ? Interpolation::linear : Interpolation::monotone_cubic;
+  if (random_.chance(0.3)) out.points.push_back({0.0, 0.0});
+  double k = moment / EI;
+  double M = moment;
+  double slope = EI;
+  out.points.push_back({k, M});
+  for (int parts = random_.below(4); parts > 0; --parts) {
+    const bool rises = random_.chance(0.2);
+    slope = rises ? std::min(slope * random_.decades(0.0, 0.7), 2.0 * EI)
+                  : std::max(slope * random_.decades(-1.5, -0.1), kLeastSlope * EI);
+    if (!rises && random_.chance(0.05)) slope = kPlateau * EI;
+    const double step = moment / EI * random_.decades(-0.5, 1.0);
+    k += step;
+    M += slope * step;
+    out.points.push_back({k, M});
+  }
+  return out;
+}
+
+/// Whether members, none of which is a rod, have this section, and its EI is one that a law may have.
+bool MembersDrawer::may_yield(const Section& section) {
+  const auto has_section = [&section](const Member& m) { return m.section == section.id; };
+  const auto is_rod_of = [&](const Member& m) { return has_section(m) && is_rod(m); };
+  return !section.EI.varies() && std::isfinite(section.EI.constant) &&
+         std::ranges::any_of(model().members, has_section) &&
+         std::ranges::none_of(model().members, is_rod_of);
+}
+
+/// Bending laws that begin to bend at 0.001 to 1 EI / L.
+void MembersDrawer::bending_laws() {
+  constexpr double kRequests = 0.35;
+  constexpr double kSections = 0.7;
+  if (!random_.chance(kRequests)) return;
+  for (Section& section : model().sections) {
+    if (!may_yield(section) || !random_.chance(kSections)) continue;
+    const double moment = section.EI.constant / length_ * random_.decades(-3.0, 0.0);
+    if (random_.chance(0.5)) {
+      section.bending = bending_table(section.EI.constant, moment);
+      section.EI = bending_stiffness_of(*section.bending);
+      continue;
+    }
+    BendingLaw law;
+    law.type = BendingLaw::Type::ramberg_osgood;
+    law.moment = moment;
+    law.exponent = random_.chance(0.5) ? random_.between(2.0, 15.0) : 2.0 + random_.below(14);
+    law.coefficient = random_.decades(-1.3, 0.3);
+    section.bending = law;
+  }
+}
+
 RandomRequest MembersDrawer::draw() {
   rigid_members();
   pretensioned_members();
@@ -331,6 +392,7 @@ RandomRequest MembersDrawer::draw() {
   for (int i = random_.below(3); i > 0; --i) node_spring(i);
   joint_laws();
   drop_moments();
+  bending_laws();
   return out_;
 }
 

@@ -74,11 +74,25 @@ Json written_stiffness(const AlongMember& number) {
   return written_taper(number);
 }
 
+const char* name_of(Interpolation i) { return i == Interpolation::linear ? "linear" : "monotone_cubic"; }
+
+Json written(const BendingLaw& law) {
+  if (law.type == BendingLaw::Type::table)
+    return {{"type", "table"}, {"points", law.points}, {"interpolation", name_of(law.interpolation)}};
+  return {{"type", "ramberg_osgood"},
+          {"moment", law.moment},
+          {"exponent", law.exponent},
+          {"coefficient", law.coefficient}};
+}
+
+/// EI is not written where a bending law's table gives it.
 Json written(const Section& s) {
-  Json out{{"id", s.id}, {"EA", written_stiffness(s.EA)}, {"EI", written_stiffness(s.EI)}};
+  Json out{{"id", s.id}, {"EA", written_stiffness(s.EA)}};
+  if (!s.bending || s.bending->type != BendingLaw::Type::table) out["EI"] = written_stiffness(s.EI);
   if (s.GA) out["GA"] = written_taper(*s.GA);
   if (s.mass) out["mass"] = written_taper(*s.mass);
   if (s.expansion) out["expansion"] = *s.expansion;
+  if (s.bending) out["bending"]["law"] = written(*s.bending);
   return out;
 }
 
@@ -87,8 +101,7 @@ Json written(const ReactionLaw& law) {
   if (law.type == ReactionLaw::Type::table) {
     out["points"] = law.points;
     out["factor"] = written(law.factor);
-    out["interpolation"] =
-        law.interpolation == ReactionLaw::Interpolation::linear ? "linear" : "monotone_cubic";
+    out["interpolation"] = name_of(law.interpolation);
     return out;
   }
   out["stiffness"] = written(law.stiffness);

@@ -22,26 +22,17 @@ double along(const std::vector<std::pair<double, double>>& points, double consta
   return points.back().second;
 }
 
+namespace {
+
 /// Slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984): the weighted harmonic mean of the
 /// chords on both sides, zero where these have different signs. The cubic has no second derivative at the
 /// table's ends.
-LawTable table_of(const ReactionLaw& law) {
-  const std::vector<std::array<double, 2>>& points = law.points;
-  LawTable out;
-  if (points.front()[0] > 0.0) {
-    out.w.push_back(0.0);
-    out.p.push_back(0.0);
-  }
-  for (const auto& [w, p] : points) {
-    out.w.push_back(w);
-    out.p.push_back(p);
-  }
-  if (law.interpolation == ReactionLaw::Interpolation::linear) return out;
-  const std::size_t last = out.w.size() - 1;
+void set_cubic(LawTable& out) {
+  const std::size_t last = out.x.size() - 1;
   std::vector<double> width(last), chord(last);
   for (std::size_t i = 0; i < last; ++i) {
-    width[i] = out.w[i + 1] - out.w[i];
-    chord[i] = (out.p[i + 1] - out.p[i]) / width[i];
+    width[i] = out.x[i + 1] - out.x[i];
+    chord[i] = (out.f[i + 1] - out.f[i]) / width[i];
   }
   out.slope.assign(last + 1, 0.0);
   if (last == 1) out.slope = {chord[0], chord[0]};
@@ -54,24 +45,58 @@ LawTable table_of(const ReactionLaw& law) {
     out.slope[0] = 1.5 * chord[0] - 0.5 * out.slope[1];
     out.slope[last] = 1.5 * chord[last - 1] - 0.5 * out.slope[last - 1];
   }
+}
+
+/// @param argument which of a point's two numbers is x
+LawTable table_through(const std::vector<std::array<double, 2>>& points, std::size_t argument,
+                       Interpolation interpolation) {
+  LawTable out;
+  if (points.front()[argument] > 0.0) {
+    out.x.push_back(0.0);
+    out.f.push_back(0.0);
+  }
+  for (const std::array<double, 2>& point : points) {
+    out.x.push_back(point[argument]);
+    out.f.push_back(point[1 - argument]);
+  }
+  if (interpolation == Interpolation::monotone_cubic) set_cubic(out);
   return out;
 }
 
+/// Curvatures by the moment.
+LawTable table_of(const BendingLaw& law) { return table_through(law.points, 1, law.interpolation); }
+
+/// Slope of a table's first line, or of its cubic at the origin.
+double first_slope(const LawTable& table) {
+  return table.slope.empty() ? table.f[1] / table.x[1] : table.slope.front();
+}
+
+/// Slope of a table before its last point.
+double last_slope(const LawTable& table) {
+  const std::size_t n = table.x.size();
+  return table.slope.empty() ? (table.f[n - 1] - table.f[n - 2]) / (table.x[n - 1] - table.x[n - 2])
+                             : table.slope.back();
+}
+
+}  // namespace
+
+LawTable table_of(const ReactionLaw& law) { return table_through(law.points, 0, law.interpolation); }
+
 namespace {
 
-/// Force and slope of a table's lines at w >= 0, or of its cubic in Hermite's form.
-std::array<double, 2> table_at(const LawTable& table, double w) {
-  if (w >= table.w.back()) return {table.p.back(), 0.0};
+/// Value and slope of a table's lines, or of its cubic in Hermite's form.
+/// @pre 0 <= x < the last point
+std::array<double, 2> table_at(const LawTable& table, double x) {
   std::size_t i = 0;
-  while (w >= table.w[i + 1]) ++i;
-  const double h = table.w[i + 1] - table.w[i];
-  const double t = (w - table.w[i]) / h;
+  while (x >= table.x[i + 1]) ++i;
+  const double h = table.x[i + 1] - table.x[i];
+  const double t = (x - table.x[i]) / h;
   const double r = 1.0 - t;
-  const double rise = table.p[i + 1] - table.p[i];
-  if (table.slope.empty()) return {table.p[i] + rise * t, rise / h};
+  const double rise = table.f[i + 1] - table.f[i];
+  if (table.slope.empty()) return {table.f[i] + rise * t, rise / h};
   const double a = h * table.slope[i];
   const double b = h * table.slope[i + 1];
-  return {table.p[i] + rise * t * t * (3.0 - 2.0 * t) + a * t * r * r - b * t * t * r,
+  return {table.f[i] + rise * t * t * (3.0 - 2.0 * t) + a * t * r * r - b * t * t * r,
           (6.0 * rise * t * r + a * r * (1.0 - 3.0 * t) + b * t * (3.0 * t - 2.0)) / h};
 }
 
@@ -81,7 +106,9 @@ std::array<double, 2> response(const RodLaw& law, double w) {
   const double P = law.capacity;
   if (law.type == ReactionLaw::Type::linear) return {k * w, k};
   if (law.type == ReactionLaw::Type::table) {
-    const auto [force, slope] = table_at(*law.table, w);
+    const LawTable& table = *law.table;
+    if (w >= table.x.back()) return {law.factor * table.f.back(), 0.0};
+    const auto [force, slope] = table_at(table, w);
     return {law.factor * force, law.factor * slope};
   }
   if (k == 0.0 || P == 0.0) return {0.0, 0.0};
@@ -105,7 +132,7 @@ double RodLaw::slope(double w) const { return response(*this, std::abs(w))[1]; }
 
 std::vector<double> RodLaw::kinks() const {
   if (type == ReactionLaw::Type::hyperbolic) return {0.0};
-  if (type == ReactionLaw::Type::table) return {table->w.begin() + 1, table->w.end()};
+  if (type == ReactionLaw::Type::table) return {table->x.begin() + 1, table->x.end()};
   if (type != ReactionLaw::Type::power || stiffness == 0.0 || capacity == 0.0) return {};
   // the line may reach the capacity first
   if (stiffness * reference <= capacity) return {capacity / stiffness, capacity / stiffness};
@@ -134,5 +161,81 @@ RodLaw LawAlong::at(double fraction) const {
   out.factor = along(law.factor.points, law.factor.constant, fraction);
   return out;
 }
+
+BendingCurvature::BendingCurvature(const BendingLaw& law, double EI) {
+  if (law.type == BendingLaw::Type::table) {
+    table_ = table_of(law);
+    return;
+  }
+  moment_ = law.moment;
+  coefficient_ = law.coefficient;
+  exponent_ = law.exponent;
+  compliance_ = 1.0 / EI;
+}
+
+BendingCurvature BendingCurvature::scaled(double moment, double curvature) const {
+  BendingCurvature out = *this;
+  out.moment_unit_ *= moment;
+  out.curvature_unit_ *= curvature;
+  return out;
+}
+
+/// Curvature and slope at moments that are not negative.
+std::array<double, 2> BendingCurvature::response(double moment) const {
+  const double M = moment * moment_unit_;
+  std::array<double, 2> out{};
+  if (table_.x.empty()) {
+    const double ratio = M / moment_;
+    out = {compliance_ * (M + coefficient_ * moment_ * std::pow(ratio, exponent_)),
+           compliance_ * (1.0 + coefficient_ * exponent_ * std::pow(ratio, exponent_ - 1.0))};
+  } else if (M >= table_.x.back()) {
+    out = {table_.f.back() + last_slope(table_) * (M - table_.x.back()), last_slope(table_)};
+  } else {
+    out = table_at(table_, M);
+  }
+  return {out[0] / curvature_unit_, out[1] * moment_unit_ / curvature_unit_};
+}
+
+double BendingCurvature::at(double moment) const {
+  return std::copysign(response(std::abs(moment))[0], moment);
+}
+
+double BendingCurvature::slope(double moment) const { return response(std::abs(moment))[1]; }
+
+double BendingCurvature::moment_of(double curvature) const {
+  constexpr int kDoublings = 2000;
+  constexpr int kHalvings = 200;
+  const double wanted = std::abs(curvature);
+  double low = 0.0;
+  double high = 1.0;
+  for (int it = 0; it < kDoublings && at(high) < wanted; ++it) high *= 2.0;
+  for (int it = 0; it < kHalvings; ++it) {
+    const double middle = 0.5 * (low + high);
+    (at(middle) < wanted ? low : high) = middle;
+  }
+  return std::copysign(0.5 * (low + high), curvature);
+}
+
+double BendingCurvature::change(double moment, double noise) const {
+  const double here = at(moment);
+  return std::max(at(moment + noise) - here, here - at(moment - noise));
+}
+
+std::array<double, 2> BendingCurvature::slopes_near(double moment, double noise) const {
+  const double size = std::abs(moment);
+  const double here = slope(moment);
+  std::array<double, 2> out{here, here};
+  const auto widen = [&](double at) {
+    const double there = slope(at);
+    out = {std::min(out[0], there), std::max(out[1], there)};
+  };
+  widen(std::max(size - noise, 0.0));
+  widen(size + noise);
+  for (const double kink : table_.x)
+    if (std::abs(kink / moment_unit_ - size) < noise) widen(kink / moment_unit_);
+  return out;
+}
+
+double bending_stiffness_of(const BendingLaw& law) { return 1.0 / first_slope(table_of(law)); }
 
 }  // namespace snapthrough::testing

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Reaction laws of elastic supports for the checker, written from the formulas of docs/requests.md.
+/// Laws of elastic supports and of bending for the checker, written from the formulas of docs/requests.md.
 
 #include <array>
 #include <memory>
@@ -18,10 +18,12 @@ namespace snapthrough::testing {
 [[nodiscard]] double along(const std::vector<std::pair<double, double>>& points, double constant,
                            double fraction, double power = 1.0);
 
-/// Points of a table from the origin on, with the slopes of its cubic there; without slopes: straight lines.
+/// Points (x, f) of a table from the origin on, with the slopes of its cubic there; without slopes: straight
+/// lines.
 struct LawTable {
-  std::vector<double> w, p, slope;
+  std::vector<double> x, f, slope;
 };
+/// @brief Table of reactions by penetrations.
 /// @pre law.type is table
 [[nodiscard]] LawTable table_of(const ReactionLaw& law);
 
@@ -54,6 +56,36 @@ class LawAlong {
   RodLaw constant_;
   std::optional<ReactionLaw> varying_;  ///< the law if its numbers vary
 };
+
+/// Curvature of a section by its bending moment, in the model's units or scaled: an odd function that
+/// ascends.
+class BendingCurvature {
+ public:
+  /// @param EI bending stiffness without moment
+  BendingCurvature(const BendingLaw& law, double EI);
+  /// The same with moments over `moment` and curvatures over `curvature`.
+  [[nodiscard]] BendingCurvature scaled(double moment, double curvature) const;
+
+  [[nodiscard]] double at(double moment) const;
+  [[nodiscard]] double slope(double moment) const;
+  /// Moment of a curvature, by bisection.
+  [[nodiscard]] double moment_of(double curvature) const;
+  /// Largest difference of the curvature at a moment from those at moments up to `noise` away.
+  [[nodiscard]] double change(double moment, double noise) const;
+  /// Least and largest slope at moments up to `noise` away, where the slope is monotone between kinks.
+  [[nodiscard]] std::array<double, 2> slopes_near(double moment, double noise) const;
+
+ private:
+  [[nodiscard]] std::array<double, 2> response(double moment) const;
+
+  LawTable table_;  ///< curvatures by moments; without points: the law of Ramberg and Osgood
+  double moment_ = 0.0, coefficient_ = 0.0, exponent_ = 2.0, compliance_ = 0.0;
+  double moment_unit_ = 1.0, curvature_unit_ = 1.0;
+};
+
+/// @brief Slope dM / dk of a bending law's table at the origin, which is the section's EI.
+/// @pre law.type is table
+[[nodiscard]] double bending_stiffness_of(const BendingLaw& law);
 
 /// @brief Law of a support in place of which a stiffness may stand.
 template <class Support>

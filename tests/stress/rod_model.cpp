@@ -131,6 +131,10 @@ void Maker::section(RodElement& element, const Section& section) const {
     element.bending[q] = bending / value(section.EI, fraction);
     if (section.GA) element.shear[q] = rod_.force / value(*section.GA, fraction);
   }
+  if (section.bending)
+    element.law =
+        std::make_shared<const BendingCurvature>(BendingCurvature(*section.bending, section.EI.constant)
+                                                     .scaled(rod_.force * rod_.length, 1.0 / rod_.length));
   element.shears = section.GA.has_value();
   element.softest = bending / std::min(value(section.EI, element.from), value(section.EI, element.to));
 }

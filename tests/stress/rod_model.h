@@ -105,9 +105,10 @@ struct RodElement {
   int member = 0;
   double from = 0.0, to = 1.0, h = 0.0;
   VectorXd angle, tx, ty, e0, g0, stretch;  ///< at the Gauss points
-  VectorXd axial, shear, bending;           ///< compliances there; 0: rigid
+  VectorXd axial, shear, bending;           ///< compliances there; 0: rigid; of a bending law without moment
   bool shears = false;                      ///< whether the section can shear
-  double softest = 0.0;                     ///< bending compliance at the end of less stiffness
+  double softest = 0.0;  ///< bending compliance without moment at the end of less stiffness
+  std::shared_ptr<const BendingCurvature> law;  ///< of bending; null: the curvature is `bending` times M
   std::vector<RodSpring> springs;
   std::vector<RodStrip> strips;
   std::array<Functional, 2> load;  ///< proportional, constant

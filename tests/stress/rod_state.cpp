@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/stress/sign_changes.h"
+
 namespace snapthrough::testing {
 namespace {
 
@@ -86,7 +88,15 @@ class Evaluation {
   void pass();
   void fit_end_forces();
   void forces(const RodElement& element, ElementState& at, Vector3d& m);
-  void strains(const RodElement& element, const ElementState& at, int index);
+  void strains(const RodElement& element, ElementState& at, int index);
+  void expand();
+  /// A bending law in a state.
+  struct Bending {
+    VectorXd curvature;
+    VectorXd noise;       ///< of the curvature, from that of the moment
+    VectorXd compliance;  ///< derivative by the moment
+  };
+  [[nodiscard]] Bending bending(const RodElement& element, const ElementState& at, int index) const;
   void joints();
   void note(double value, double tolerance, const std::string& what);
 
@@ -98,7 +108,9 @@ class Evaluation {
   double noise_ = 0.0;  ///< of a displacement
   double turn_noise_ = 0.0;
   double largest_force_ = 0.0;
-  std::vector<double> entered_;              ///< depths in the stops on elements
+  std::vector<double> entered_;  ///< depths in the stops on elements
+  /// Of elements with a bending law: moments about which the law is taken as a line; empty: it is not.
+  std::vector<VectorXd> expanded_at_;
   std::vector<double> values_, tolerances_;  ///< of all equations in turn
 };
 
@@ -158,55 +170,6 @@ double Evaluation::penetration(const RodElement& element, const RodStrip& strip,
   if (closer_ == 0.0) return depth_at(strip, site, at.u);
   const StripDepth depth = depth_with_derivatives(strip, site, at.u);
   return depth.value + closer_ * rounding_of(element, depth.row);
-}
-
-/// Where f is extreme in [a, b] on the side of `toward` zero, by golden sections.
-template <class Function>
-double extremum(const Function& f, double a, double b, bool from_above) {
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-  const double sign = from_above ? 1.0 : -1.0;
-  for (int it = 0; it < 60; ++it) {
-    const double left = b - ratio * (b - a);
-    const double right = a + ratio * (b - a);
-    (sign * f(left) < sign * f(right) ? b : a) = sign * f(left) < sign * f(right) ? right : left;
-  }
-  return 0.5 * (a + b);
-}
-
-/// Values g of a function at ascending places x.
-struct Samples {
-  std::vector<double> x, g;
-};
-
-/// Places where f changes its sign, ascending; pairs between samples are found by the extrema.
-template <class Function>
-std::vector<double> sign_changes(const Function& f, Samples of) {
-  auto& [x, g] = of;
-  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-    const bool above = g[i] > 0.0;
-    if (std::abs(g[i]) > std::min(std::abs(g[i - 1]), std::abs(g[i + 1]))) continue;
-    if ((g[i - 1] > 0.0) != above || (g[i + 1] > 0.0) != above) continue;
-    const double at = extremum(f, x[i - 1], x[i + 1], above);
-    const double extreme = f(at);
-    if ((extreme > 0.0) == above) continue;
-    const auto place = static_cast<std::ptrdiff_t>(i) + (at > x[i] ? 1 : 0);
-    x.insert(x.begin() + place, at);
-    g.insert(g.begin() + place, extreme);
-    i += 2;
-  }
-  std::vector<double> out;
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    const bool before = g[i - 1] > 0.0;
-    if ((g[i] > 0.0) == before) continue;
-    double a = x[i - 1];
-    double b = x[i];
-    for (int it = 0; it < 60; ++it) {
-      const double mid = 0.5 * (a + b);
-      ((f(mid) > 0.0) == before ? a : b) = mid;
-    }
-    out.push_back(a);
-  }
-  return out;
 }
 
 /// Penetration of a law's kink at a fraction; without one, farther than displacements reach.
@@ -444,8 +407,50 @@ void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m
   largest_force_ = std::max(largest_force_, m.head<2>().norm());
 }
 
-void Evaluation::strains(const RodElement& element, const ElementState& at, int index) {
+/// Takes bending laws as lines through the moments that they give for the curvatures of the shape: then all
+/// equations are affine in the forces, and met by the same ones.
+void Evaluation::expand() {
+  expanded_at_.resize(rod_.elements.size());
+  for (std::size_t e = 0; e < rod_.elements.size(); ++e) {
+    const RodElement& element = rod_.elements[e];
+    if (!element.law) continue;
+    const ElementState& at = out_.elements[e];
+    VectorXd& moments = expanded_at_[e];
+    moments.resize(at.M.size());
+    for (Eigen::Index q = 0; q < moments.size(); ++q) {
+      const double initial = state_.load_factor * element.curvature[0][q] + element.curvature[1][q];
+      const double bent = at.u(q + 1, 2) - std::hypot(element.tx[q], element.ty[q]) * initial;
+      moments[q] = element.law->moment_of(bent / element.stretch[q]);
+    }
+  }
+}
+
+/// One-sided supports that come closer stiffen the structure; so do bending laws within the noise of moments.
+Evaluation::Bending Evaluation::bending(const RodElement& element, const ElementState& at, int index) const {
+  if (!element.law)
+    return {element.bending.cwiseProduct(at.M), element.bending * at.moment_noise, element.bending};
+  const BendingCurvature& law = *element.law;
+  Bending out{at.M, at.M, at.M};
+  for (Eigen::Index q = 0; q < at.M.size(); ++q) {
+    if (expanded_at_.empty()) {
+      const auto [least, largest] = law.slopes_near(at.M[q], at.moment_noise);
+      out.curvature[q] = law.at(at.M[q]);
+      out.noise[q] = law.change(at.M[q], at.moment_noise);
+      out.compliance[q] = closer_ == 0.0 ? law.slope(at.M[q]) : closer_ > 0.0 ? least : largest;
+      continue;
+    }
+    const double moment = expanded_at_[static_cast<std::size_t>(index)][q];
+    out.compliance[q] = law.slope(moment);
+    out.curvature[q] = law.at(moment) + out.compliance[q] * (at.M[q] - moment);
+    out.noise[q] = out.compliance[q] * at.moment_noise;
+  }
+  return out;
+}
+
+void Evaluation::strains(const RodElement& element, ElementState& at, int index) {
   const std::string where = " in element " + std::to_string(index);
+  const Bending bent = bending(element, at, index);
+  at.bending = bent.compliance;
   const VectorXd strain = state_.load_factor * element.strain[0] + element.strain[1];
   const VectorXd curvature = state_.load_factor * element.curvature[0] + element.curvature[1];
   for (Eigen::Index q = 0; q < at.N.size(); ++q) {
@@ -456,9 +461,8 @@ void Evaluation::strains(const RodElement& element, const ElementState& at, int 
          kConverged + rounding + j * element.axial[q] * at.force_noise, "axial strain" + where);
     note(at.G[q] - element.g0[q] - j * element.shear[q] * at.Q[q],
          kConverged + rounding + j * element.shear[q] * at.force_noise, "shear strain" + where);
-    note(at.u(q + 1, 2) - j * element.bending[q] * at.M[q] - size * curvature[q],
-         kConverged / element.h + at.turn_noise[q] + j * element.bending[q] * at.moment_noise,
-         "bending strain" + where);
+    note(at.u(q + 1, 2) - j * bent.curvature[q] - size * curvature[q],
+         kConverged / element.h + at.turn_noise[q] + j * bent.noise[q], "bending strain" + where);
   }
 }
 
@@ -500,11 +504,15 @@ void Evaluation::pass() {
 
 /// End forces with which the equations, all affine in them, are met best.
 void Evaluation::fit_end_forces() {
+  expand();
   pass();
   const auto count = static_cast<Eigen::Index>(values_.size());
   const VectorXd base = Eigen::Map<VectorXd>(values_.data(), count);
   const VectorXd weight = Eigen::Map<VectorXd>(tolerances_.data(), count).cwiseInverse();
-  if (!base.allFinite()) return;
+  if (!base.allFinite()) {
+    expanded_at_.clear();
+    return;
+  }
   const double unit = 1.0 + largest_force_;
   const double largest = largest_force_;
   MatrixXd slope(base.size(), static_cast<Eigen::Index>(3 * rod_.members.size()));
@@ -520,6 +528,7 @@ void Evaluation::fit_end_forces() {
   for (Eigen::Index k = 0; k < slope.cols(); ++k)
     out_.end_force[static_cast<std::size_t>(k / 3)][k % 3] += unit * change[k];
   largest_force_ = largest;
+  expanded_at_.clear();
   pass();
 }
 

@@ -26,6 +26,7 @@ struct ElementState {
   VectorXd turn_noise;      ///< of b'_q
   VectorXd cos, sin, E, G;  ///< of the section; x' along and across it
   VectorXd N, Q, M;         ///< from equilibrium with the force through the end
+  VectorXd bending;         ///< compliances against bending at these moments
   double force_noise = 0.0, moment_noise = 0.0;
   std::vector<ActingSupport> acting;
 };

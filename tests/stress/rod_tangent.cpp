@@ -63,7 +63,7 @@ void MemberTangent::add_element(int e) {
   const auto unit = [&](Index q, double c) { return std::sqrt(c * element.stretch[q] / (element.h * b[q])); };
   std::array<MatrixXd, 3> v;  // rows of du'_q
   v.fill(MatrixXd::Zero(p, size_));
-  for (Index q = 0; q < p; ++q) v[2](q, first + per_element_ - p + q) = unit(q, element.bending[q]);
+  for (Index q = 0; q < p; ++q) v[2](q, first + per_element_ - p + q) = unit(q, at.bending[q]);
   MatrixXd turns(p, size_);
   VectorXd weight(p);
   for (Index q = 0; q < p; ++q) {

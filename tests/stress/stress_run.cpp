@@ -75,15 +75,9 @@ bool needs_one_sided_supports(RandomRequest request) {
   return can_move(resolve(request.model));
 }
 
-/// What a reader of a failure wants to know first.
-std::string features_of(const RandomRequest& request) {
-  const Model& m = request.model;
-  const Discretization& d = request.analysis.discretization;
-  std::string text = request.analysis.type == AnalysisType::critical ? "critical" : "path";
-  text += d.fixed_mesh ? " order " + std::to_string(d.order) + " x " + std::to_string(d.elements)
-                       : " default mesh";
-  if (d.foundation == FoundationRule::lumped) text += " lumped";
-  text += "; members";
+/// Curves, joints and sections of the members.
+std::string features_of_members(const Model& m) {
+  std::string text;
   constexpr std::array kCurves{"line", "arc", "parabola", "sine", "points"};
   for (const Member& member : m.members) {
     if (is_rod(member)) {
@@ -99,7 +93,23 @@ std::string features_of(const RandomRequest& request) {
     const Section& section = m.sections[static_cast<std::size_t>(index_of(m.sections, member.section))];
     if (std::isinf(section.EA.constant)) text += "(rigid EA)";
     if (std::isinf(section.EI.constant)) text += "(rigid EI)";
+    if (section.bending) {
+      const bool is_table = section.bending->type == BendingLaw::Type::table;
+      text += is_table ? "(bending table)" : "(bending power)";
+    }
   }
+  return text;
+}
+
+/// What a reader of a failure wants to know first.
+std::string features_of(const RandomRequest& request) {
+  const Model& m = request.model;
+  const Discretization& d = request.analysis.discretization;
+  std::string text = request.analysis.type == AnalysisType::critical ? "critical" : "path";
+  text += d.fixed_mesh ? " order " + std::to_string(d.order) + " x " + std::to_string(d.elements)
+                       : " default mesh";
+  if (d.foundation == FoundationRule::lumped) text += " lumped";
+  text += "; members" + features_of_members(m);
   constexpr std::array kReactions{"bilateral", "compression", "tension"};
   const auto law_of = [](const std::optional<ReactionLaw>& law) {
     constexpr std::array kLaws{" along", " tanh", " hyperbolic", " power", " table"};

@@ -2,6 +2,7 @@
 /// mechanics written a second time. The long run is scripts/stress.sh; docs/stress.md says what is checked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -204,6 +205,75 @@ TEST(StressChecker, SeesThatARigidMemberStrains) {
   expect_seen(request, [](Model& m) { m.sections.back().EA = 1e5; });
 }
 
+BendingLaw bending_law(BendingLaw::Type type, Interpolation interpolation) {
+  BendingLaw law;
+  law.type = type;
+  law.interpolation = interpolation;
+  law.moment = 0.4;
+  law.exponent = 5.0;
+  law.points = {{0.3, 0.3}, {1.0, 0.5}, {3.0, 0.6}};
+  return law;
+}
+
+/// The beam with sections that soften; a moment, an exponent or a curvature of a law is off by 1e-5.
+TEST(StressChecker, SeesAFalseBendingLaw) {
+  using Type = BendingLaw::Type;
+  RandomRequest request = beam_on({.id = "soft", .member = "beam", .stiffness = 0.1, .direction = {}});
+  request.model.loads = {PointLoad{{"", "beam", 0.6}, {0.0, 1.0}, 0.0, Pattern::proportional}};
+  request.analysis.stop.load_factor = {{-1.0, 1.2}};
+  Section& section = request.model.sections.front();
+  section.bending = bending_law(Type::ramberg_osgood, {});
+  expect_seen(request, [](Model& m) { m.sections.front().bending->moment *= 1.0 + 1e-5; });
+  expect_seen(request, [](Model& m) { m.sections.front().bending->exponent *= 1.0 + 1e-5; });
+  expect_seen(request, [](Model& m) { m.sections.front().bending->coefficient *= 1.0 + 1e-5; });
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::monotone_cubic}) {
+    SCOPED_TRACE(static_cast<int>(interpolation));
+    section.bending = bending_law(Type::table, interpolation);
+    section.EI = bending_stiffness_of(*section.bending);
+    expect_seen(request, [](Model& m) { m.sections.front().bending->points[1][1] *= 1.0 + 1e-5; });
+    expect_seen(request, [](Model& m) { m.sections.front().bending->points[2][0] *= 1.0 + 1e-5; });
+  }
+}
+
+/// Values at the moments that scale the laws, and of the cubic's slopes by hand.
+TEST(StressChecker, BendingLawsAreThoseOfTheDocument) {
+  using Type = BendingLaw::Type;
+  BendingLaw given = bending_law(Type::ramberg_osgood, {});
+  given.coefficient = 0.25;
+  const BendingCurvature power(given, 2.0);
+  EXPECT_DOUBLE_EQ(power.at(-0.4), -0.25);  // 1.25 * 0.4 / 2
+  EXPECT_DOUBLE_EQ(power.at(0.8), 0.5 * (0.8 + 0.25 * 0.4 * 32.0));
+  EXPECT_DOUBLE_EQ(power.scaled(0.1, 0.5).at(-4.0), -0.5);
+  EXPECT_NEAR(power.moment_of(-0.25), -0.4, 1e-15);
+
+  given = bending_law(Type::table, Interpolation::linear);
+  EXPECT_DOUBLE_EQ(bending_stiffness_of(given), 1.0);
+  const BendingCurvature lines(given, 1.0);
+  EXPECT_DOUBLE_EQ(lines.at(-0.4), -0.65);
+  EXPECT_DOUBLE_EQ(lines.at(0.7), 5.0);
+  EXPECT_DOUBLE_EQ(lines.slope(0.7), 20.0);
+  EXPECT_NEAR(lines.change(0.5, 0.01), 0.2, 1e-15);
+  EXPECT_NEAR(lines.slopes_near(-0.5, 0.01)[0], 3.5, 1e-15);
+  EXPECT_NEAR(lines.slopes_near(-0.5, 0.01)[1], 20.0, 1e-13);
+
+  // chords 1 and 3 of equal length have the slope 1.5 between them, with which the outer ones have no bend
+  given.interpolation = Interpolation::monotone_cubic;
+  given.points = {{1.0, 1.0}, {4.0, 2.0}};
+  EXPECT_DOUBLE_EQ(bending_stiffness_of(given), 1.0 / 0.75);
+  const BendingCurvature cubic(given, 1.0 / 0.75);
+  EXPECT_DOUBLE_EQ(cubic.slope(0.0), 0.75);
+  EXPECT_DOUBLE_EQ(cubic.slope(1.0), 1.5);
+  EXPECT_DOUBLE_EQ(cubic.slope(2.0), 3.75);
+  EXPECT_DOUBLE_EQ(cubic.at(0.5), 0.5 + (0.75 - 1.5) / 8.0);
+  EXPECT_DOUBLE_EQ(cubic.at(3.0), 7.75);
+  for (const BendingCurvature& law : {power, lines, cubic})
+    for (const double moment : {-0.17, 0.35, 0.45, 1.3, 2.6}) {
+      constexpr double kStep = 1e-6;
+      const double difference = (law.at(moment + kStep) - law.at(moment - kStep)) / (2.0 * kStep);
+      EXPECT_NEAR(law.slope(moment), difference, 1e-7 * difference);
+    }
+}
+
 /// Values that the formulas of docs/requests.md have at the penetrations that scale them, and slopes.
 TEST(StressChecker, LawsAreThoseOfTheDocument) {
   using Type = ReactionLaw::Type;
@@ -289,13 +359,30 @@ TEST(Stress, SliceOfRandomMedia) {
 /// Structures with rigid members, joints that yield, beds against rotation, guys, ties and links.
 TEST(Stress, SliceOfRandomMembers) {
   const std::map<std::uint64_t, std::string> ends{
-      {900044, "monitor_turned"},     {900222, "critical_point"}, {900243, "load_bound"},
-      {900272, "load_bound"},         {900294, "steps"},          {900338, "load_factor"},
-      {900463, "displacement_bound"}, {900535, "limit_points"},   {900551, "monitor"},
-      {900577, "critical_point"},     {900594, "load_factor"},    {900769, "displacement_bound"}};
+      {900044, "monitor_turned"}, {900222, "critical_point"}, {900243, "load_bound"},
+      {900272, "load_bound"},     {900294, "steps"},          {900350, "load_factor"},
+      {900463, "critical_point"}, {900607, "limit_points"},   {900551, "monitor"},
+      {900577, "critical_point"}, {900594, "load_factor"},    {900769, "displacement_bound"}};
   for (const auto& [seed, end] : ends) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     expect_checked(run_seed(Draw::members, seed, 20.0), end);
+  }
+}
+
+/// Those of these structures whose sections have bending laws: each kind of law and of end.
+TEST(Stress, SliceOfRandomBendingLaws) {
+  const std::map<std::uint64_t, std::string> ends{{900180, "monitor_turned"}, {900190, "steps"},
+                                                  {900256, "load_bound"},     {900340, "displacement_bound"},
+                                                  {900372, "load_factor"},    {900612, "load_factor"},
+                                                  {901327, "steps"},          {900777, "limit_points"},
+                                                  {900971, "critical_point"}, {900976, "critical_point"},
+                                                  {901218, "critical_point"}, {901220, "monitor"}};
+  for (const auto& [seed, end] : ends) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const RandomRequest request = draw_request(Draw::members, seed);
+    const auto has_law = [](const Section& s) { return s.bending.has_value(); };
+    EXPECT_TRUE(std::ranges::any_of(request.model.sections, has_law));
+    expect_checked(run_request(request, 20.0), end);
   }
 }
 
