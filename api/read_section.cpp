@@ -284,11 +284,11 @@ bool read_bending(Object& in, Section& out) {
   return out.bending->type == BendingLaw::Type::table;
 }
 
-/// Reads EI, which a table of bending moments has by itself.
-void read_bending_stiffness(Object& in, bool has_table, AlongMember& out) {
+/// Reads EI, which a table of bending moments has by itself; it may be absent beside a law that is not read.
+void read_bending_stiffness(Object& in, bool has_table, Section& out) {
   if (!has_table) {
-    read_required_stiffness(in, "EI", out);
-  } else if (const auto value = in.find("EI")) {
+    read_required_stiffness(in, "EI", out.EI);
+  } else if (const auto value = in.find("EI"); value && !out.bending->points.empty()) {
     value->report("ambiguous", "a table of bending moments has its own EI, its slope at the origin");
   }
 }
@@ -317,7 +317,7 @@ void read(const Value& value, Section& out) {
   }
   if (by_stiffness || !by_material) {
     read_required_stiffness(in, "EA", out.EA);
-    read_bending_stiffness(in, has_table, out.EI);
+    read_bending_stiffness(in, has_table, out);
     read_shear_stiffness(in, out.GA);
     read_mass(in, nullptr, out);
   }

@@ -230,10 +230,6 @@ bool check_bending_points(const Place& place, const BendingLaw& law) {
 void check_bending(const Place& section, const Section& data) {
   const BendingLaw& law = *data.bending;
   const Place place = section / "bending" / "law";
-  if (data.EI.varies() || std::isinf(data.EI.constant)) {
-    (section / "bending").report("not_supported", "a section with a bending law needs a constant EI");
-    return;
-  }
   if (law.type == BendingLaw::Type::table) {
     if (!check_bending_points(place / "points", law)) return;
     constexpr double kRounding = 1e-9;
@@ -242,6 +238,8 @@ void check_bending(const Place& section, const Section& data) {
       (section / "EI").report("out_of_range", "EI must be the slope of the bending law at the origin");
     return;
   }
+  if (data.EI.varies() || std::isinf(data.EI.constant))
+    (section / "bending").report("not_supported", "a section with a bending law needs a constant EI");
   require_positive(place / "moment", law.moment);
   require_not_negative(place / "coefficient", law.coefficient);
   require_between(place / "exponent", law.exponent, 2.0, kMaxBendingExponent);
@@ -288,7 +286,7 @@ namespace {
 bool has_flexible_member(const Model& data, const Names& names) {
   return std::any_of(data.members.begin(), data.members.end(), [&](const Member& member) {
     const Section* section = section_of(member, data, names);
-    return is_rod(member) || section == nullptr || !std::isinf(section->EI.constant);
+    return is_rod(member) || section == nullptr || section->bending || !std::isinf(section->EI.constant);
   });
 }
 

@@ -85,7 +85,7 @@ bool have_their_quotients(BucklingPencil& pencil, const VectorXd& loads, const M
 /// Block inverse iteration with Rayleigh-Ritz on the span of y = J(shift)^-1 G x: (y^T G x) c = (shift -
 /// lambda) (y^T G y) c. It evaluates no energies of J_0, which have lost digits where parts of a structure
 /// are stiffer than others by 1e14.
-/// @param loads, modes the loads next to the shift, to begin with; overwritten
+/// @param loads, modes the loads next to the shift, to begin with; overwritten by those of the last iteration
 /// @return whether the loads have converged
 bool iterate(BucklingPencil& pencil, double shift, Eigen::Ref<VectorXd> loads, Eigen::Ref<MatrixXd> modes) {
   pencil.factorise(shift);
@@ -95,6 +95,8 @@ bool iterate(BucklingPencil& pencil, double shift, Eigen::Ref<VectorXd> loads, E
     const RealEigen found =
         real_eigen(solve_row_pivoting(y.transpose() * forces, y.transpose() * pencil.geometric(y)));
     VectorXd next = (shift - found.values.array().inverse()).matrix();
+    // motions of equal loads have become one
+    if (!next.allFinite() || !found.vectors.allFinite()) return false;
     std::vector<Index> order(static_cast<std::size_t>(next.size()));
     std::iota(order.begin(), order.end(), Index{0});
     std::sort(order.begin(), order.end(), [&next](Index a, Index b) { return next[a] < next[b]; });
