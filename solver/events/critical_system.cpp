@@ -53,7 +53,8 @@ class CriticalNewton {
     if (bifurcation) at_.unfolding = VectorXd::Zero(guess.null.cols());
   }
   [[nodiscard]] std::optional<CriticalSolution> run(int& factorisations);
-  /// State next to the critical point from which the last iteration led away; empty: none.
+  /// State, null motions and load response next to the critical point, from which the last iteration led
+  /// away; empty: none.
   [[nodiscard]] const std::optional<CriticalSolution>& nearest() const { return nearest_; }
   [[nodiscard]] VectorXd another_null_motion(const CriticalSolution& at);
 
@@ -68,6 +69,7 @@ class CriticalNewton {
   [[nodiscard]] bool step();
   [[nodiscard]] bool converged();
   [[nodiscard]] bool balances();
+  void keep_nearest();
   [[nodiscard]] MatrixXd share_of_target() const;
   [[nodiscard]] VectorXd small_step() const;
 
@@ -326,6 +328,14 @@ bool CriticalNewton::balances() {
   return false;
 }
 
+void CriticalNewton::keep_nearest() {
+  if (!nearest_) nearest_.emplace();
+  nearest_->y = at_.y;
+  nearest_->lambda = at_.lambda;
+  nearest_->null = at_.null;
+  nearest_->response = at_.response;
+}
+
 std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
   for (int it = 1; it <= CriticalLimits::most_iterations; ++it) {
     ++factorisations;
@@ -341,7 +351,7 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
     if (broken && it >= CriticalLimits::settling) break;
     if (converged() && balances()) return std::move(at_);
     const double size = std::max(std::abs(at_.lambda), options_.least_load);
-    if (bifurcation_ && std::abs(dlambda_) <= CriticalLimits::near * size) nearest_ = at_;
+    if (bifurcation_ && std::abs(dlambda_) <= CriticalLimits::near * size) keep_nearest();
   }
   return std::move(settled_);
 }

@@ -94,7 +94,11 @@ class PeakSearch {
     for (const Piece& piece : pieces_)
       for (const Sample& sample : piece) raise({sign * sample.values[k], sample.s}, best);
     const double range = most_[k] - least_[k];
-    if (!(range > Rounding::motion * std::max(std::abs(most_[k]), std::abs(least_[k])))) return best;
+    if (!(range > Rounding::motion * std::max(std::abs(most_[k]), std::abs(least_[k])))) {
+      // rounding must not choose the place of a value that is the same everywhere
+      if (!pieces_.empty() && !pieces_.front().empty()) best.s = pieces_.front().front().s;
+      return best;
+    }
     const auto value_at = [&](double s) { return sign * values_at(s)[k]; };
     for (const Candidate& one : candidates(k, sign, best.value)) {
       const Piece& piece = *one.piece;

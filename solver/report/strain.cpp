@@ -19,11 +19,19 @@ StrainGauge::Compliance StrainGauge::compliance_at(const MeshElement& cell, doub
           F * structure_.scales.length / std::sqrt(section.EI.at(fraction) * EA)};
 }
 
-double StrainGauge::elastic_moment(int member, double moment) const {
+const BendingCurve* StrainGauge::curve_of(int member) const {
   const auto section = static_cast<std::size_t>(model_.members[static_cast<std::size_t>(member)].section);
-  const BendingCurve* curve = structure_.bending_curves[section].get();
+  return structure_.bending_curves[section].get();
+}
+
+namespace {
+
+/// Moment that gives a curvature by the bending stiffness without moment.
+double elastic_moment(const BendingCurve* curve, double moment) {
   return curve == nullptr ? moment : curve->at(moment).moment;
 }
+
+}  // namespace
 
 bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const {
   const CollocationRule& rule = CollocationRule::of(structure_.mesh.order);
@@ -32,11 +40,12 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
   for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {
     const MeshElement& cell = structure_.mesh.elements[e];
     const double* forces = y.data() + structure_.dofs[e].s;
+    const BendingCurve* curve = curve_of(cell.member);
     for (int q = 0; q < p; ++q) {
       const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
       const Compliance by = compliance_at(cell, fraction);
       const double strain = std::max({by.axial * std::abs(forces[q]), by.shear * std::abs(forces[p + q]),
-                                      by.bending * std::abs(elastic_moment(cell.member, forces[2 * p + q]))});
+                                      by.bending * std::abs(elastic_moment(curve, forces[2 * p + q]))});
       if (strain <= largest.strain) continue;
       largest = {strain, model_.members[cell.member].id, fraction * structure_.axes[cell.member]->length()};
       raised = true;
@@ -60,10 +69,11 @@ bool StrainGauge::is_beyond_theory(const Eigen::VectorXd& y) const {
     const ElementDofs& dofs = structure_.dofs[e];
     if (std::abs(y[dofs.b[2]]) > StrainLimits::largest_rotation) return true;
     const double* forces = y.data() + dofs.s;
+    const BendingCurve* curve = curve_of(cell.member);
     for (int q = 0; q < p; ++q) {
       const Compliance by = compliance_at(cell, cell.from + rule.point(q) * (cell.to - cell.from));
       if (by.axial * std::abs(forces[q]) > StrainLimits::largest ||
-          by.bending * std::abs(elastic_moment(cell.member, forces[2 * p + q])) > StrainLimits::largest)
+          by.bending * std::abs(elastic_moment(curve, forces[2 * p + q])) > StrainLimits::largest)
         return true;
     }
   }

@@ -47,8 +47,8 @@ class StrainGauge {
     double axial, shear, bending;
   };
   [[nodiscard]] Compliance compliance_at(const MeshElement& cell, double fraction) const;
-  /// Moment that gives the curvature of a member by its bending stiffness without moment.
-  [[nodiscard]] double elastic_moment(int member, double moment) const;
+  /// Bending law of a member; null: none.
+  [[nodiscard]] const BendingCurve* curve_of(int member) const;
 
   const Structure& structure_;
   const ResolvedModel& model_;
