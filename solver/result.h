@@ -325,7 +325,7 @@ struct AtCritical {
   double displacement = 0.0;           ///< largest hypot(u, v)
   double relative_displacement = 0.0;  ///< over the diagonal of the structure's bounding box
   double rotation = 0.0;               ///< largest rotation, rad
-  double strain = 0.0;                 ///< largest of |N| / EA, |Q| / GA, |M| / EI times sqrt(EI / EA)
+  double strain = 0.0;                 ///< largest of |N| / EA, |Q| / GA, curvature times sqrt(EI / EA)
 };
 
 struct Summary {
