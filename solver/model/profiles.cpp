@@ -98,9 +98,9 @@ std::optional<NameParts> parts_of(std::string_view name) {
   const char* const end = at + text.size();
   while (at != end && is_letter(*at)) out.letters += *at++;
   while (at != end && is_digit(*at)) {
-    const auto [after, error] =
-        std::from_chars(at, end, out.numbers.emplace_back(), std::chars_format::fixed);
-    if (error != std::errc()) return std::nullopt;
+    const char* const after = std::find_if_not(at, end, is_digit);
+    const auto [read, error] = std::from_chars(at, after, out.numbers.emplace_back());
+    if (error != std::errc() || read != after) return std::nullopt;
     at = after;
     if (at + 1 < end && *at == 'X' && is_digit(at[1])) ++at;
   }
