@@ -359,7 +359,7 @@ bool MembersDrawer::may_yield(const Section& section) {
          std::ranges::none_of(model().members, is_rod_of);
 }
 
-/// Bending laws that begin to bend at 0.001 to 1 EI / L.
+/// Gives sections bending laws that soften from moments of 0.001 to 1 EI / L on, L the longest member.
 void MembersDrawer::bending_laws() {
   constexpr double kRequests = 0.35;
   constexpr double kSections = 0.7;
