@@ -1,8 +1,10 @@
 #include "solver/accuracy/layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace snapthrough {
 namespace {
@@ -15,16 +17,16 @@ double largest_softening(const Structure& structure, std::size_t m, const Eigen:
   if (curve == nullptr) return 1.0;
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
   const int p = rule.order();
-  std::vector<double> values(static_cast<std::size_t>(p));
+  std::array<std::vector<double>, 2> at_end{std::vector<double>(static_cast<std::size_t>(p)),
+                                            std::vector<double>(static_cast<std::size_t>(p))};
+  rule.values_at(0.0, at_end[0]);
+  rule.values_at(1.0, at_end[1]);
   double largest = 1.0;
   for (int e = structure.mesh.first[m]; e < structure.mesh.first[m + 1]; ++e) {
     const double* moments = y.data() + structure.dofs[static_cast<std::size_t>(e)].s + 2 * p;
-    for (const double end : {0.0, 1.0}) {
-      rule.values_at(end, values);
-      double moment = 0.0;
-      for (int q = 0; q < p; ++q) moment += values[static_cast<std::size_t>(q)] * moments[q];
-      largest = std::max(largest, curve->at(moment).slope);
-    }
+    for (const std::vector<double>& values : at_end)
+      largest =
+          std::max(largest, curve->at(std::inner_product(values.begin(), values.end(), moments, 0.0)).slope);
   }
   return largest;
 }

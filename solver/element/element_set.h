@@ -56,7 +56,8 @@ struct ElementShape {
   std::vector<double> shear_compliance;  ///< shear strain g per shear force Q; all zero: unshearable
   std::vector<double>
       bending_compliance;  ///< curvature k per moment M, without moment where `bending` is set
-  /// Factor on the curvature by the moment, see BendingCurve; null: linear. Owned by Structure.
+  /// Bending law: the curvature is `bending_compliance` times the moment that the curve gives for M. Null:
+  /// the curvature is `bending_compliance` times M. Owned by Structure.
   const BendingCurve* bending = nullptr;
 };
 

@@ -53,8 +53,8 @@ class CriticalNewton {
     if (bifurcation) at_.unfolding = VectorXd::Zero(guess.null.cols());
   }
   [[nodiscard]] std::optional<CriticalSolution> run(int& factorisations);
-  /// State, null motions and load response next to the critical point, from which the last iteration led
-  /// away; empty: none.
+  /// @brief The last iterate whose load was corrected by less than CriticalLimits::near and that was no
+  /// solution: state, load factor, null motions and load response. Empty: no iterate came that near.
   [[nodiscard]] const std::optional<CriticalSolution>& nearest() const { return nearest_; }
   [[nodiscard]] VectorXd another_null_motion(const CriticalSolution& at);
 
@@ -70,6 +70,10 @@ class CriticalNewton {
   [[nodiscard]] bool converged();
   [[nodiscard]] bool balances();
   void keep_nearest();
+  /// Load factor to which differences of load factors are relative.
+  [[nodiscard]] double load_size(double lambda) const {
+    return std::max(std::abs(lambda), options_.least_load);
+  }
   [[nodiscard]] MatrixXd share_of_target() const;
   [[nodiscard]] VectorXd small_step() const;
 
@@ -152,8 +156,8 @@ bool CriticalNewton::factorise() {
   const VectorXd exact = eigenvalues(at_.stiffness);
   const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
   const bool is_sure = doubt < CriticalLimits::sure;
-  const double size = std::max(std::abs(at_.lambda), options_.least_load);
-  const bool is_elsewhere = std::abs(at_.lambda - counted_at_) > CriticalLimits::count_holds * size;
+  const bool is_elsewhere =
+      std::abs(at_.lambda - counted_at_) > CriticalLimits::count_holds * load_size(at_.lambda);
   if (is_sure || is_elsewhere || !(doubt > doubt_of_count_)) {
     // pivots and these eigenvalues come from one factorisation, so that their signs are consistent
     doubt_of_count_ = doubt;
@@ -298,7 +302,7 @@ bool CriticalNewton::step() {
 bool CriticalNewton::converged() {
   const bool falls = previous_ == 0.0 || moved_ < 0.5 * previous_;
   const double ratio = falls && previous_ > 0.0 ? moved_ / previous_ : 1.0;
-  const double size = std::max(std::abs(at_.lambda), options_.least_load);
+  const double size = load_size(at_.lambda);
   const bool stagnant = stalled_ && !falls &&
                         std::max(moved_, previous_) <= CriticalLimits::stagnant * options_.reach &&
                         std::abs(dlambda_) <= CriticalLimits::stagnant * size;
@@ -350,8 +354,7 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
     const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
     if (broken && it >= CriticalLimits::settling) break;
     if (converged() && balances()) return std::move(at_);
-    const double size = std::max(std::abs(at_.lambda), options_.least_load);
-    if (bifurcation_ && std::abs(dlambda_) <= CriticalLimits::near * size) keep_nearest();
+    if (bifurcation_ && std::abs(dlambda_) <= CriticalLimits::near * load_size(at_.lambda)) keep_nearest();
   }
   return std::move(settled_);
 }
@@ -362,7 +365,7 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
 VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
   const Index k = at.null.cols();
   if (k == (problem_.metric().array() > 0.0).count()) return {};
-  const double step = CriticalLimits::beside * std::max(std::abs(at.lambda), options_.least_load);
+  const double step = CriticalLimits::beside * load_size(at.lambda);
   problem_.linearise(at.y + step * at.response, at.lambda + step, residual_);
   const MatrixXd border = problem_.metric().asDiagonal() * at.null;
   VectorXd x = pseudo_random(at.y.size(), static_cast<unsigned>(k + 1));

@@ -28,8 +28,8 @@ inline constexpr std::size_t kMaxWorstMembers = 32;  ///< members of a model wit
 inline constexpr std::size_t kMaxPointsAlong =
     1'000;  ///< points of a table of a law, or of a number along a member
 inline constexpr double kMaxBendingExponent = 100.0;
-/// Slope of a bending law's table over its slope without moment, from which an equation of the curvature by
-/// the moment keeps half its digits.
+/// Least slope dM/dk of a bending law's table over that at the origin. A moment then gives 1e8 times the
+/// curvature, so that rounding of the moment leaves half of the curvature's digits.
 inline constexpr double kLeastBendingSlope = 1e-8;
 inline constexpr int kMaxHalfWaves = 1'000;
 inline constexpr int kMaxModes = 1'000;  ///< number of buckling modes, and of a mode imperfection

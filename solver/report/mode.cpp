@@ -164,6 +164,7 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
     for (int q = 0; q < p; ++q) {
       const double bending = length * forces[2 * p + q];
       const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
+      // with a bending law the stiffness is that of the state, which moment and curvature of the mode have
       const double curvature = mode[structure.dofs[e].v + 2 * p + q];
       const double bent = section.bending ? forces[2 * p + q] * curvature / structure.scales.force
                                           : bending * bending / section.EI.at(fraction);

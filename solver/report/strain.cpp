@@ -5,6 +5,14 @@
 #include <cstddef>
 
 namespace snapthrough {
+namespace {
+
+/// Moment that gives a curvature by the bending stiffness without moment.
+double elastic_moment(const BendingCurve* curve, double moment) {
+  return curve == nullptr ? moment : curve->at(moment).moment;
+}
+
+}  // namespace
 
 StrainGauge::StrainGauge(const Structure& structure) : structure_(structure), model_(*structure.model) {
   const ResolvedModel& model = *structure.model;
@@ -23,15 +31,6 @@ const BendingCurve* StrainGauge::curve_of(int member) const {
   const auto section = static_cast<std::size_t>(model_.members[static_cast<std::size_t>(member)].section);
   return structure_.bending_curves[section].get();
 }
-
-namespace {
-
-/// Moment that gives a curvature by the bending stiffness without moment.
-double elastic_moment(const BendingCurve* curve, double moment) {
-  return curve == nullptr ? moment : curve->at(moment).moment;
-}
-
-}  // namespace
 
 bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const {
   const CollocationRule& rule = CollocationRule::of(structure_.mesh.order);

@@ -2,11 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "solver/events/root_finder.h"
 
 namespace snapthrough {
 namespace {
+
+/// Ends of the pieces of a step between its limit points.
+std::vector<const PathPoint*> ends_of(const PathPoint& from, const std::vector<PathPoint>& turns,
+                                      const PathPoint& to) {
+  std::vector<const PathPoint*> out{&from};
+  for (const PathPoint& turn : turns) out.push_back(&turn);
+  out.push_back(&to);
+  return out;
+}
 
 bool is_at(const PathPoint& point, double load) {
   return std::abs(point.lambda - load) <= kSameLoadFactor * std::abs(load);
@@ -24,10 +34,9 @@ bool AskedStateSearch::passes(std::size_t index, const PathPoint& from, const Pa
 bool AskedStateSearch::look_on(const PathPoint& from, const std::vector<PathPoint>& turns,
                                const PathPoint& to) {
   found_.clear();
-  for (std::size_t piece = 0; piece <= turns.size(); ++piece)
-    if (!look_on_piece(piece, piece == 0 ? from : turns[piece - 1],
-                       piece == turns.size() ? to : turns[piece]))
-      return false;
+  const std::vector<const PathPoint*> ends = ends_of(from, turns, to);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    if (!look_on_piece(i, *ends[i], *ends[i + 1])) return false;
   return true;
 }
 
@@ -54,9 +63,8 @@ std::optional<PathPoint> AskedStateSearch::state_on(std::size_t piece, std::size
 
 void AskedStateSearch::tell(const PathPoint& from, const std::vector<PathPoint>& turns, const PathPoint& to,
                             const Receiver& receive) {
-  for (std::size_t piece = 0; piece <= turns.size(); ++piece)
-    tell_piece(piece, piece == 0 ? from : turns[piece - 1], piece == turns.size() ? to : turns[piece],
-               receive);
+  const std::vector<const PathPoint*> ends = ends_of(from, turns, to);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) tell_piece(i, *ends[i], *ends[i + 1], receive);
   found_.clear();
 }
 

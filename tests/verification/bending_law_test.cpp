@@ -15,6 +15,7 @@
 #include "solver/element/bending_curve.h"
 #include "solver/numeric/gauss_rule.h"
 #include "tests/verification/cases.h"
+#include "tests/verification/root.h"
 
 namespace snapthrough {
 namespace {
@@ -44,21 +45,12 @@ BendingLaw law_of(const Power& power) {
   return law;
 }
 
-/// Straight line to the moment Mp, then a line with `slope` times EI.
+/// Moment EI k up to Mp, and a line of slope `slope` EI beyond.
 BendingLaw bilinear(double EI, double Mp, double slope) {
   BendingLaw law;
   law.interpolation = Interpolation::linear;
   law.points = {{Mp / EI, Mp}, {2.0 * Mp / EI, (1.0 + slope) * Mp}};
   return law;
-}
-
-double root(const std::function<double(double)>& f, double lo, double hi) {
-  const bool rises = f(hi) > 0.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (((f(middle) > 0.0) == rises) ? hi : lo) = middle;
-  }
-  return 0.5 * (lo + hi);
 }
 
 /// Integral by Gauss points on 40 equal parts.
@@ -282,6 +274,62 @@ TEST(BendingLaw, LimitPointOfAColumnWithEccentricLoad) {
   ASSERT_EQ(point.sensitivities.size(), 1u);
   expect_relative(*point.sensitivities[0].derivative, (limit(1.0 + 1e-3) - limit(1.0 - 1e-3)) / 2e-3, 1e-5,
                   "d limit load / d M0");
+}
+
+/// EI = 100 below a moment so small that the states of these tests are beyond it, and dM / dk = 1 there.
+BendingLaw soft_at_once() {
+  BendingLaw law;
+  law.interpolation = Interpolation::linear;
+  law.points = {{1e-8, 1e-6}, {10.00000001, 10.000001}};
+  return law;
+}
+
+/// Cantilever with a constant force aside, that bends it, and a force that follows its end: damping takes the
+/// stiffness at the origin, so that the law has a hundred times the damping of the section EI = 1.
+TEST(BendingLaw, DampingHasTheStiffnessAtTheOrigin) {
+  const auto flutter_load = [](bool by_law, double damper) {
+    Model model = straight(1.0, 1.0, 1e6, "xyr", "");
+    model.sections[0].mass = 1.0;
+    if (by_law) {
+      model.sections[0].bending = soft_at_once();
+      model.sections[0].EI = initial_slope(soft_at_once());
+    }
+    PointLoad follower = force_at(at_node("b"), -1.0, 0.0);
+    follower.follows = true;
+    PointLoad aside = force_at(at_node("b"), 0.0, 0.05);
+    aside.pattern = Pattern::constant;
+    model.loads = {follower, aside};
+    model.damping = {0.05, damper};
+    const Result result = solve_soundly(model, analysis_of(AnalysisType::critical, fixed_mesh(12, 4)));
+    EXPECT_EQ(result.summary.critical_type, CriticalType::flutter);
+    return result.summary.critical_load_factor.value_or(0.0);
+  };
+  const double expected = flutter_load(false, 1.0);
+  // the moment is below 1e-6, where the law is stiff, on 2e-5 of the length
+  expect_relative(flutter_load(true, 0.01), expected, 1e-3, "flutter load");
+  EXPECT_GT(std::abs(flutter_load(false, 0.01) / expected - 1.0), 0.1);
+}
+
+/// An arch between two clamped columns buckles by itself, whether its EI or the slope of its law is 1.
+TEST(BendingLaw, NamesTheMemberThatBuckles) {
+  const auto member = [](bool by_law) {
+    Model model;
+    model.nodes = {{"d", -1.0, 0.0}, {"a", 0.0, 0.0}, {"c", 2.0, 0.0}, {"e", 3.0, 0.0}};
+    model.sections = {{"A", 1e5, 1.0, {}}, {"B", 1e5, 40.0, {}}};
+    if (by_law) {
+      model.sections[0].bending = soft_at_once();
+      model.sections[0].EI = initial_slope(soft_at_once());
+    }
+    model.members = {{"arch", "c", "a", "A", ArcCurve{120.0}, false, false},
+                     {"left", "d", "a", "B", LineCurve{}, false, false},
+                     {"right", "c", "e", "B", LineCurve{}, false, false}};
+    model.supports = {support("a", "xy"), support("c", "xy"), support("d", "xyr"), support("e", "xyr")};
+    model.loads = {force_at(at_member("arch", 0.5), 0.0, -1.0)};
+    const Result result = solve_soundly(model, analysis_of(AnalysisType::critical, fixed_mesh(24, 4)));
+    return result.critical_points.at(0).member.value_or("none");
+  };
+  EXPECT_EQ(member(false), "arch");
+  EXPECT_EQ(member(true), "arch");
 }
 
 /// Portal with clamped feet, height and half span l = 1, and the load P on its corner and on its middle:

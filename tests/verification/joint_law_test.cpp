@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/verification/cases.h"
+#include "tests/verification/root.h"
 
 namespace snapthrough {
 namespace {
@@ -65,16 +66,6 @@ double largest(const std::function<double(double)>& f, double from, double to) {
     to = std::min(to, best + step);
   }
   return f(0.5 * (from + to));
-}
-
-/// Root of a function that has opposite signs at both ends.
-double root(const std::function<double(double)>& f, double lo, double hi) {
-  const bool rises = f(hi) > 0.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (((f(middle) > 0.0) == rises) ? hi : lo) = middle;
-  }
-  return 0.5 * (lo + hi);
 }
 
 /// An upright bar of length 1, almost rigid, on a clamp that it is joined to by a law, with a load P down and

@@ -1,20 +1,11 @@
 /// Semi-rigid joints, effective lengths and pieces of parabolas against closed forms.
 #include "tests/verification/cases.h"
+#include "tests/verification/root.h"
 
 namespace snapthrough {
 namespace {
 
 using namespace testing;
-
-/// Root of an increasing function.
-template <class F>
-double root(double lo, double hi, F f) {
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (f(middle) < 0.0 ? lo : hi) = middle;
-  }
-  return 0.5 * (lo + hi);
-}
 
 void join(Member& member, double start, double end) {
   member.release_start_rotation = member.release_end_rotation = true;
@@ -61,7 +52,7 @@ Model portal(double joint) {
 double sway_load(double joint) {
   const double c = 1.0 / (1.0 / joint + 6.0 / (6.0 * 8000.0));
   const double kh =
-      root(1e-6, 0.5 * kPi - 1e-12, [c](double x) { return x * std::tan(x) - c * 4.0 / 8000.0; });
+      root([c](double x) { return x * std::tan(x) - c * 4.0 / 8000.0; }, 1e-6, 0.5 * kPi - 1e-12);
   return kh * kh * 8000.0 / 16.0;
 }
 
@@ -110,7 +101,7 @@ TEST(SemiRigidJoints, MayBeAllThatANodeHas) {
 
 /// Pinned 1, cantilever 2, clamped and pinned 0.69916, by the differential equation and by elements.
 TEST(EffectiveLengths, AreThoseOfTheTextbook) {
-  const double clamped_pinned = kPi / root(4.4, 4.6, [](double x) { return std::tan(x) - x; });
+  const double clamped_pinned = kPi / root([](double x) { return std::tan(x) - x; }, 4.4, 4.6);
   for (const auto& [start, end, expected] :
        {std::tuple{"xy", "y", 1.0}, std::tuple{"xyr", "", 2.0}, std::tuple{"xyr", "y", clamped_pinned}}) {
     Model model = straight(3.0, 100.0, 1e13, start, end);

@@ -5,6 +5,7 @@
 #include "tests/convergence/fitted_slope.h"
 #include "tests/verification/balance.h"
 #include "tests/verification/cases.h"
+#include "tests/verification/root.h"
 
 namespace snapthrough {
 namespace {
@@ -28,16 +29,6 @@ Model pressed(Model model) {
 }
 
 constexpr double kInextensible = 1e14;
-
-/// Root of a continuous function with one change of sign on an interval.
-double root(const std::function<double(double)>& f, double low, double high) {
-  const bool rises = f(low) < 0.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    ((f(middle) < 0.0) == rises ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 void expect_load(const Model& model, double expected, const std::string& what) {
   for (const Analysis& analysis : {buckling_on(accurate(1e-9)), buckling_on(fixed_mesh(8, 6)),

@@ -57,6 +57,14 @@ TEST(Peaks, AreOnBothSidesOfAJump) {
   EXPECT_NEAR(kink.range.max.value, 0.0, 1e-8);
 }
 
+/// Rounding does not choose the place of a value that is the same everywhere.
+TEST(Peaks, OfAConstantAreAtItsStart) {
+  const Searched found([](double s) { return -2.0 + 1e-15 * std::sin(40.0 * s); }, {0.25, 1.0, 2.0});
+  EXPECT_EQ(found.range.min.s, 0.25);
+  EXPECT_EQ(found.range.max.s, 0.25);
+  EXPECT_NEAR(found.range.min.value, -2.0, 1e-14);
+}
+
 /// Waves that the first samples are too far apart for.
 TEST(Peaks, OfWavesNeedMoreSamples) {
   const Searched found([](double s) { return std::sin(9.0 * s) + 0.1 * s; }, {0.0, 2.0});
