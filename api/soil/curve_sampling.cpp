@@ -1,6 +1,7 @@
 #include "api/soil/curve_sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -69,14 +70,14 @@ class Sampler {
  private:
   /// Adds the points that are needed between the last one and `to`.
   void divide(const Stretch& stretch, double to) {
-    const auto [y, p] = curve_.points.back();
-    if (!(to > y)) {
+    const std::array<double, 2> from = curve_.points.back();
+    if (!(to > from[0])) {
       return;
     }
-    const double slope = (stretch.force(to) - p) / (to - y);
+    const double slope = (stretch.force(to) - from[1]) / (to - from[0]);
     const Largest error = largest(
-        [&, y = y, p = p](double x) { return std::abs(stretch.force(x) - p - slope * (x - y)); }, y, to);
-    if (error.value > tolerance_ && error.at > y && error.at < to) {
+        [&](double x) { return std::abs(stretch.force(x) - from[1] - slope * (x - from[0])); }, from[0], to);
+    if (error.value > tolerance_ && error.at > from[0] && error.at < to) {
       divide(stretch, error.at);
       add_point(error.at, stretch.force(error.at));
       divide(stretch, to);
