@@ -11,8 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "api/read_pipe.h"
 #include "api/read_soil_layer.h"
 #include "api/read_soils.h"
+#include "api/soil/buried_pipe.h"
 #include "api/soil/write_base.h"
 #include "api/soil/write_foundations.h"
 #include "solver/check/check_place.h"
@@ -34,6 +36,9 @@ struct SoilEntry {
   double displacement_factor = 1.0;
   bool base = false;  ///< the member's lower end is the pile's tip, and bears
 };
+
+/// Largest slope of a pipe for which a foundation along its normal is one in the vertical direction.
+constexpr double kLargestPipeSlope = 0.2;
 
 /// A member in soil: its geometry, and the nodes at its ends.
 struct Shaft {
@@ -111,7 +116,7 @@ SoilEntry read_entry(const Value& value) {
     read_multiplier(*multiplier, out);
   }
   in.optional("base", out.base);
-  for (const char* own : {"stiffness", "law"}) {
+  for (const char* own : {"stiffness", "law", "pipe"}) {
     if (const auto field = in.find(own)) {
       field->report(
           "ambiguous",
@@ -125,6 +130,9 @@ SoilEntry read_entry(const Value& value) {
 
 /// Whether an entry of `foundations` names a soil.
 bool names_soil(const json& entry) { return entry.is_object() && entry.contains("soil"); }
+
+/// Whether an entry of `foundations` is the soil around a pipe.
+bool has_pipe(const json& entry) { return entry.is_object() && entry.contains("pipe"); }
 
 /// Members in soil that continue one another downwards.
 class Chains {
@@ -178,9 +186,16 @@ class FoundationList {
   void link_members(const json& entries);
   void add_made(const Value& entry, std::size_t index);
   bool add_base(const Value& entry, std::size_t index, const GivenSoil& soil, const Shaft& shaft);
-  void add_unknown(std::size_t index, const SoilEntry& data);
+  void add_pipe(const Value& entry, std::size_t index);
+  json foundations_of_pipe(const Value& entry, PipeEntry& data);
+  bool is_buried(const Value& entry, const soil::BuriedPipe& pipe);
+  bool reacts(const Value& entry, const json& made);
+  std::optional<bool> above_is_left(const Value& entry, const json& member);
+  void add_all(const Value& entry, std::size_t index, json made);
+  void add_unknown(std::size_t index, const std::string& id, const std::string& member);
   std::optional<Shaft> shaft_of(const Value& entry, const SoilEntry& data);
-  std::optional<double> diameter_of(const Value& entry, const SoilEntry& data, const json& member);
+  const json* member_of(const Value& entry, const std::string& id, const std::string& member);
+  std::optional<double> diameter_of(const Value& entry, const json& member);
   const GivenSoil* soil_of(const Value& entry, const SoilEntry& data);
   bool reaches(const Value& entry, const GivenSoil& soil, const SoilEntry& data, const soil::Pile& pile);
   json foundations_of(const GivenSoil& soil, const soil::Pile& pile);
@@ -219,6 +234,8 @@ ListedSupports FoundationList::list() {
     if (names_soil(entry.json())) {
       WorkLimit::poll();
       add_made(entry, i);
+    } else if (has_pipe(entry.json())) {
+      add_pipe(entry, i);
     } else {
       listed_.foundations.push_back({i, nullptr});
     }
@@ -248,12 +265,12 @@ void FoundationList::link_members(const json& entries) {
 void FoundationList::add_made(const Value& entry, std::size_t index) {
   const SoilEntry data = read_entry(entry);
   if (report_.covers(entry.pointer())) {
-    return add_unknown(index, data);
+    return add_unknown(index, data.id, data.member);
   }
   const GivenSoil* soil = soil_of(entry, data);
   auto shaft = soil != nullptr ? shaft_of(entry, data) : std::nullopt;
   if (!shaft || !reaches(entry, *soil, data, shaft->pile)) {
-    return add_unknown(index, data);
+    return add_unknown(index, data.id, data.member);
   }
   const double tip = chains_.lowest(data.soil, shaft->lower, data.ground_level - shaft->pile.tip_depth());
   shaft->pile.embedded_depth = data.ground_level - tip - soil->scour.general;
@@ -261,8 +278,97 @@ void FoundationList::add_made(const Value& entry, std::size_t index) {
   shaft->pile.held_from = soil->scour.local;
   json made = foundations_of(*soil, shaft->pile);
   if (made.is_null() || (data.base && !add_base(entry, index, *soil, *shaft))) {
-    return add_unknown(index, data);
+    return add_unknown(index, data.id, data.member);
   }
+  add_all(entry, index, std::move(made));
+}
+
+/// Adds what the soil around a pipe gives, or a foundation of unknown stiffness.
+void FoundationList::add_pipe(const Value& entry, std::size_t index) {
+  PipeEntry data = read_pipe(entry);
+  json made = report_.covers(entry.pointer()) ? json() : foundations_of_pipe(entry, data);
+  if (made.is_null() || !reacts(entry, made)) {
+    return add_unknown(index, data.pipe.id, data.pipe.member);
+  }
+  add_all(entry, index, std::move(made));
+}
+
+/// Returns the foundations of a pipe; null after a report, and when its member is unreadable.
+json FoundationList::foundations_of_pipe(const Value& entry, PipeEntry& data) {
+  const json* member = member_of(entry, data.pipe.id, data.pipe.member);
+  if (member == nullptr) {
+    return {};
+  }
+  const auto diameter = data.diameter ? data.diameter : diameter_of(entry, *member);
+  if (!diameter) {
+    return {};
+  }
+  data.pipe.diameter = *diameter;
+  if (!is_buried(entry, data.pipe)) {
+    return {};
+  }
+  if (data.plane == PipePlane::horizontal) {
+    return soil::write_pipe_in_plan(data.pipe);
+  }
+  const auto up_is_left = above_is_left(entry, *member);
+  return up_is_left ? soil::write_pipe_in_elevation(data.pipe, *up_is_left) : json();
+}
+
+/// Returns whether the depth of a pipe is one for which its soil's reactions are given; else reports it.
+bool FoundationList::is_buried(const Value& entry, const soil::BuriedPipe& pipe) {
+  const double depth = pipe.depth / pipe.diameter;
+  if (depth >= soil::kLeastPipeDepth && depth <= soil::kLargestPipeDepth) {
+    return true;
+  }
+  entry.member("pipe")->member("depth")->report(
+      "out_of_range", "the depth of a pipe's axis must be from " + checks::text(soil::kLeastPipeDepth) +
+                          " to " + checks::text(soil::kLargestPipeDepth) + " diameters, got " +
+                          checks::text(depth));
+  return false;
+}
+
+/// Returns whether the reactions around a pipe and their displacements are positive and finite; else reports
+/// it.
+bool FoundationList::reacts(const Value& entry, const json& made) {
+  for (const json& one : made) {
+    for (const json& number : one.at("law").at("points").back()) {
+      const double value = number.get<double>();
+      if (!(value >= std::numeric_limits<double>::min() && value <= kMaxMagnitude)) {
+        entry.member("pipe")->report(
+            "out_of_range", "the soil's reactions and their displacements must be positive and finite");
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Returns whether the soil above a nearly horizontal member lies on its left; nullopt when its nodes are
+/// unreadable, and after a report.
+std::optional<bool> FoundationList::above_is_left(const Value& entry, const json& member) {
+  const json* start = nodes_.named_by(member, "start");
+  const json* end = nodes_.named_by(member, "end");
+  if (start == nullptr || end == nullptr) {
+    return std::nullopt;
+  }
+  const double dx = ById::number(*end, "x") - ById::number(*start, "x");
+  const double dy = ById::number(*end, "y") - ById::number(*start, "y");
+  if (!std::isfinite(dx) || !std::isfinite(dy)) {
+    return std::nullopt;
+  }
+  const json* curve = ById::field(member, "curve");
+  const json* type = curve != nullptr ? ById::field(*curve, "type") : nullptr;
+  if ((type != nullptr && *type != "line") || std::abs(dy) > kLargestPipeSlope * std::abs(dx)) {
+    entry.member("member")->report("not_supported",
+                                   "a pipe in a vertical plane must be straight, with a slope of at most " +
+                                       checks::text(kLargestPipeSlope));
+    return std::nullopt;
+  }
+  return dx > 0.0;
+}
+
+/// Adds the foundations that an entry gives, with its displacement of the ground.
+void FoundationList::add_all(const Value& entry, std::size_t index, json made) {
   for (json& foundation : made) {
     if (const json* displacement = ById::field(entry.json(), "displacement")) {
       foundation["displacement"] = *displacement;
@@ -272,9 +378,9 @@ void FoundationList::add_made(const Value& entry, std::size_t index) {
 }
 
 /// Adds a foundation without stiffness and law for an entry with a mistake.
-void FoundationList::add_unknown(std::size_t index, const SoilEntry& data) {
+void FoundationList::add_unknown(std::size_t index, const std::string& id, const std::string& member) {
   report_.mark_unreadable(model_.pointer() + "/foundations/" + std::to_string(index));
-  json unknown{{"id", data.id}, {"member", data.member}};
+  json unknown{{"id", id}, {"member", member}};
   listed_.foundations.push_back({index, std::move(unknown)});
 }
 
@@ -311,16 +417,8 @@ const GivenSoil* FoundationList::soil_of(const Value& entry, const SoilEntry& da
 /// Returns the member of an entry, by depths below the ground's surface; nullopt when it or its nodes are
 /// unknown or unreadable, and after a report.
 std::optional<Shaft> FoundationList::shaft_of(const Value& entry, const SoilEntry& data) {
-  std::vector<Finding> findings;
-  checks::Ids("foundation").add(checks::Place(PointerPath(entry.pointer() + "/id"), findings), data.id);
-  for (Finding& finding : findings) {
-    report_.add(finding.pointer, finding.code, std::move(finding.detail));
-  }
   const Value name = *entry.member("member");
-  const json* member = members_.find(data.member);
-  if (member == nullptr && !report_.covers(model_.pointer() + "/members")) {
-    name.report("unknown_reference", "there is no member " + checks::in_quotes(data.member));
-  }
+  const json* member = member_of(entry, data.id, data.member);
   const json* start = member != nullptr ? nodes_.named_by(*member, "start") : nullptr;
   const json* end = member != nullptr ? nodes_.named_by(*member, "end") : nullptr;
   if (start == nullptr || end == nullptr) {
@@ -342,7 +440,7 @@ std::optional<Shaft> FoundationList::shaft_of(const Value& entry, const SoilEntr
     name.report("not_supported", "a member in soil must not be horizontal");
     return std::nullopt;
   }
-  const std::optional<double> diameter = diameter_of(entry, data, *member);
+  const std::optional<double> diameter = data.diameter ? data.diameter : diameter_of(entry, *member);
   if (!diameter) {
     return std::nullopt;
   }
@@ -364,12 +462,23 @@ std::optional<Shaft> FoundationList::shaft_of(const Value& entry, const SoilEntr
   return shaft;
 }
 
-/// Returns the diameter of an entry, by default the outer one of the tube that is the member's section.
-std::optional<double> FoundationList::diameter_of(const Value& entry, const SoilEntry& data,
-                                                  const json& member) {
-  if (data.diameter) {
-    return data.diameter;
+/// Returns the member of an entry, and checks the entry's id; null when the member is unknown.
+const json* FoundationList::member_of(const Value& entry, const std::string& id, const std::string& member) {
+  std::vector<Finding> findings;
+  checks::Ids("foundation").add(checks::Place(PointerPath(entry.pointer() + "/id"), findings), id);
+  for (Finding& finding : findings) {
+    report_.add(finding.pointer, finding.code, std::move(finding.detail));
   }
+  const json* found = members_.find(member);
+  if (found == nullptr && !report_.covers(model_.pointer() + "/members")) {
+    entry.member("member")->report("unknown_reference", "there is no member " + checks::in_quotes(member));
+  }
+  return found;
+}
+
+/// Returns the outer diameter of the tube that is a member's section; nullopt after a report, and when the
+/// section is unreadable.
+std::optional<double> FoundationList::diameter_of(const Value& entry, const json& member) {
   const json* section = sections_.named_by(member, "section");
   const json* shape = section != nullptr ? ById::field(*section, "shape") : nullptr;
   const json* type = shape != nullptr ? ById::field(*shape, "type") : nullptr;
@@ -378,9 +487,10 @@ std::optional<double> FoundationList::diameter_of(const Value& entry, const Soil
     return diameter > 0.0 && diameter <= kMaxMagnitude ? std::optional(diameter) : std::nullopt;
   }
   if (section != nullptr) {
-    entry.report("missing_field",
-                 "a foundation in soil needs the diameter of the pile when the member's section is no tube "
-                 "given by its shape");
+    entry.report(
+        "missing_field",
+        "a foundation in soil needs the diameter of its pile or pipe when the member's section is no "
+        "tube given by its shape");
   }
   return std::nullopt;
 }
@@ -424,7 +534,9 @@ bool has_soil(const json& model) {
   }
   const json* entries = ById::field(model, "foundations");
   return model.contains("soils") || (entries != nullptr && entries->is_array() &&
-                                     std::any_of(entries->begin(), entries->end(), names_soil));
+                                     std::any_of(entries->begin(), entries->end(), [](const json& one) {
+                                       return names_soil(one) || has_pipe(one);
+                                     }));
 }
 
 ListedSupports list_foundations(const Value& model) { return FoundationList(model).list(); }

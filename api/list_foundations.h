@@ -22,14 +22,15 @@ struct ListedSupports {
   std::vector<ListedSupport> springs;  ///< at the bases of piles; they follow the request's own springs
 };
 
-/// Returns whether a model has soils, or foundations that name a soil.
+/// Returns whether a model has soils, or foundations that name a soil or are the soil around a pipe.
 [[nodiscard]] bool has_soil(const nlohmann::json& model);
 
-/// @brief Returns the foundations of a model, where those in soil are replaced by foundations with laws by
-/// depth, and the springs that the soil gives at bases.
+/// @brief Returns the foundations of a model, where those in soil are replaced by foundations with laws, and
+/// the springs that the soil gives at bases.
 ///
-/// Reports mistakes in `soils` and in foundations that name a soil. Such a foundation with a mistake is
-/// unreadable in the report, and has one foundation without stiffness and law. @pre model.is_object()
+/// Reports mistakes in `soils` and in foundations that name a soil or have a `pipe`. Such a foundation with a
+/// mistake is unreadable in the report, and has one foundation without stiffness and law. @pre
+/// model.is_object()
 [[nodiscard]] ListedSupports list_foundations(const Value& model);
 
 /// Returns a model whose foundations in soil are replaced by those that the soil gives, with its springs.

@@ -53,6 +53,8 @@ inline constexpr Named<BifurcationKind> kBifurcationKinds[] = {
 inline constexpr Named<StateOutput> kStateOutputs[] = {
     {"none", StateOutput::none}, {"critical", StateOutput::critical}, {"all", StateOutput::all}};
 
+inline constexpr Named<Fibre> kFibres[] = {{"left", Fibre::left}, {"right", Fibre::right}};
+
 /// Table of the names of an enumeration.
 template <class E>
 inline constexpr auto kNamesOf = nullptr;
@@ -64,6 +66,8 @@ template <>
 inline constexpr const auto& kNamesOf<NoDerivative> = kNoDerivatives;
 template <>
 inline constexpr const auto& kNamesOf<BifurcationKind> = kBifurcationKinds;
+template <>
+inline constexpr const auto& kNamesOf<Fibre> = kFibres;
 
 /// Returns the name of a value. @throws std::invalid_argument when the table lacks the value
 template <class E, std::size_t n>

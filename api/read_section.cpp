@@ -210,6 +210,70 @@ void read_mass(Object& in, const SectionGeometry* shape, Section& out) {
   }
 }
 
+/// Strength of a material: a number, or one for tension and one for compression.
+struct MaterialStrength {
+  double tension = 0.0;
+  double compression = 0.0;
+};
+
+void read(const Value& value, MaterialStrength& out) {
+  if (!value.is_object()) {
+    read(value, out.tension);
+    if (!(out.tension > 0.0 && out.tension <= kMaxMagnitude) && out.tension == out.tension) {
+      value.report("out_of_range", "strength must be positive and finite");
+      set_unread(out.tension);
+    }
+    out.compression = out.tension;
+    return;
+  }
+  Object in(value);
+  read_positive(in, "tension", out.tension);
+  read_positive(in, "compression", out.compression);
+  in.finish();
+}
+
+/// Reads the strength of the material, if there is one: axial force f A and bending moment f W.
+/// @param modulus section modulus W
+void read_material_strength(Object& in, double area, double modulus, Section& out) {
+  MaterialStrength material;
+  if (!in.optional("strength", material)) {
+    return;
+  }
+  const double axial_force = material.tension * area;
+  const double bending_moment = material.tension * modulus;
+  const double ratio = material.compression / material.tension;
+  if (std::isnan(axial_force + bending_moment + ratio)) {
+    return;  // a number that is not read was reported
+  }
+  const auto is_usable = [](double v) { return v > 0.0 && v <= kMaxMagnitude; };
+  if (!is_usable(axial_force) || !is_usable(bending_moment) || !is_usable(ratio)) {
+    in.find("strength")
+        ->report("out_of_range",
+                 "strength times area, strength times section modulus, and the ratio of the "
+                 "strengths must be positive and finite");
+    return;
+  }
+  out.strength = {axial_force, bending_moment, ratio};
+}
+
+/// Reads the strength of a section that is given by its stiffness, if there is one.
+void read_section_strength(Object& in, Section& out) {
+  const auto value = in.find("strength");
+  if (!value) {
+    return;
+  }
+  Object strength(*value);
+  Strength& read_into = out.strength.emplace();
+  for (const auto& [key, number] :
+       {std::pair{"axial_force", &read_into.axial_force}, {"bending_moment", &read_into.bending_moment}}) {
+    set_unread(number->constant);
+    if (const auto given = strength.find_required(key)) {
+      read_number(*given, *number);
+    }
+  }
+  strength.finish();
+}
+
 /// Sets the stiffness of a material and a shape.
 void set_stiffness(Object& in, double E, double G, const Shape& shape, Section& out) {
   const double EA = E * shape.stiffening * shape.geometry.area;
@@ -248,6 +312,13 @@ void read_material_section(Object& in, Section& out) {
     read_positive(in, "shear_area", shape.geometry.shear_area);
   }
   set_stiffness(in, E, has_shear ? E / (2.0 * (1.0 + nu)) : 0.0, shape, out);
+  double modulus = 0.0;
+  if (in.find("strength")) {
+    read_positive(in, "W", modulus);
+  } else if (const auto given = in.find("W")) {
+    given->report("ambiguous", "a section modulus W goes with a strength");
+  }
+  read_material_strength(in, shape.geometry.area, modulus, out);
 }
 
 /// Reads a section by material and shape or profile. It shears if nu or G is given.
@@ -270,6 +341,8 @@ void read_shaped_section(Object& in, Section& out) {
     G = E / (2.0 * (1.0 + read_nu(in)));
   }
   set_stiffness(in, E, G, shape, out);
+  const SectionGeometry& geometry = shape.geometry;
+  read_material_strength(in, geometry.area, 2.0 * geometry.second_moment / geometry.depth, out);
 }
 
 /// Reads a bending law if there is one. Returns whether it is a table, whose slope is the section's EI.
@@ -305,7 +378,7 @@ void read(const Value& value, Section& out) {
   };
   const bool by_stiffness = has_any({"EA", "EI", "GA"});
   const bool by_shape = has_any({"shape", "profile"});
-  const bool by_area = has_any({"A", "I", "shear_area"});
+  const bool by_area = has_any({"A", "I", "shear_area", "W"});
   const bool by_material = by_shape || by_area || has_any({"E", "nu"});
   if ((by_stiffness && by_material) || (by_shape && by_area) ||
       (has_any({"shape"}) && has_any({"profile"}))) {
@@ -319,6 +392,7 @@ void read(const Value& value, Section& out) {
     read_required_stiffness(in, "EA", out.EA);
     read_bending_stiffness(in, has_table, out);
     read_shear_stiffness(in, out.GA);
+    read_section_strength(in, out);
     read_mass(in, nullptr, out);
   }
   if (by_shape) {

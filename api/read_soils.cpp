@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "api/read_soil_layer.h"
 #include "api/read_soil_types.h"
@@ -13,7 +14,7 @@
 namespace snapthrough::api {
 
 soil::Profile GivenSoil::profile() const {
-  soil::Profile out{{}, loading, accuracy};
+  soil::Profile out{{}, loading, layering, accuracy};
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const soil::Layer& layer = layers[i].layer;
     const double from = std::max(layer.from, scour.general);
@@ -99,6 +100,12 @@ static void read(const Value& value, Scour& out) {
   in.finish();
 }
 
+static void read(const Value& value, soil::Layering& out) {
+  static constexpr Named<soil::Layering> kNames[] = {{"none", soil::Layering::none},
+                                                     {"georgiadis", soil::Layering::georgiadis}};
+  read_named(value, kNames, out);
+}
+
 /// Reads the water table with the unit weight of water, which go together.
 static void read_water(Object& in, GivenSoil& out) {
   const auto weight = in.find("water_unit_weight");
@@ -118,6 +125,7 @@ static void read(const Value& value, GivenSoil& out) {
   read_water(in, out);
   in.optional("scour", out.scour);
   in.required("loading", out.loading);
+  in.optional("layering", out.layering);
   read_accuracy(in, out.accuracy);
   in.required("layers", out.layers);
   in.finish();
@@ -149,6 +157,20 @@ static void require_layers(const Value& layers, const GivenSoil& soil) {
   }
 }
 
+/// Refuses layers of PISA in a soil with equivalent depths, for which their curves are not made.
+static void refuse_layering(const Value& layers, const GivenSoil& soil) {
+  for (std::size_t i = 0; soil.layering == soil::Layering::georgiadis && i < soil.layers.size(); ++i) {
+    const auto* faces = std::get_if<soil::Faces<soil::LayerType>>(&soil.layers[i].layer.soil);
+    if (faces != nullptr && (std::holds_alternative<soil::PisaClay>(faces->top) ||
+                             std::holds_alternative<soil::PisaSand>(faces->top))) {
+      layers.item(i).member("type")->report(
+          "not_supported",
+          "the curves of PISA are made for the depths of layers themselves: layering must be "
+          "none");
+    }
+  }
+}
+
 std::vector<GivenSoil> read_soils(const Value& soils) {
   std::vector<GivenSoil> out;
   read(soils, out);
@@ -162,6 +184,7 @@ std::vector<GivenSoil> read_soils(const Value& soils) {
       continue;
     }
     require_layers(*soil.member("layers"), out[i]);
+    refuse_layering(*soil.member("layers"), out[i]);
     if (!report.covers(soil.pointer()) && out[i].scour.general >= out[i].bottom()) {
       soil.member("scour")->member("general")->report(
           "out_of_range",

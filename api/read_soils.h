@@ -30,6 +30,7 @@ struct GivenSoil {
   double water_unit_weight = 0.0;
   Scour scour;
   soil::Loading loading = soil::Loading::static_;
+  soil::Layering layering = soil::Layering::none;
   double accuracy = 1e-2;
   std::vector<GivenLayer> layers;
 

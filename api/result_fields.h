@@ -175,25 +175,35 @@ template <>
 inline constexpr auto kFields<LargestPeak> = std::tuple{field("max", &LargestPeak::max)};
 
 template <>
-inline constexpr auto kFields<MemberPeaks> = std::tuple{
-    field("axial_force", &MemberPeaks::axial_force), field("shear_force", &MemberPeaks::shear_force),
-    field("bending_moment", &MemberPeaks::bending_moment), internal(&MemberPeaks::displacement),
-    field("displacement", [](const MemberPeaks& one) { return LargestPeak{one.displacement}; })};
+inline constexpr auto kFields<Utilisation> = std::tuple{
+    field("value", &Utilisation::value), field("s", &Utilisation::s), field("fibre", &Utilisation::fibre)};
 
 template <>
-inline constexpr auto kFields<MemberState> = std::tuple{field<kKey>("id", &MemberState::id),
-                                                        field("s", &MemberState::s),
-                                                        field("x0", &MemberState::x0),
-                                                        field("y0", &MemberState::y0),
-                                                        field("x", &MemberState::x),
-                                                        field("y", &MemberState::y),
-                                                        field("u", &MemberState::u),
-                                                        field("v", &MemberState::v),
-                                                        field("rotation", &MemberState::rotation),
-                                                        field("axial_force", &MemberState::axial_force),
-                                                        field("shear_force", &MemberState::shear_force),
-                                                        field("bending_moment", &MemberState::bending_moment),
-                                                        field("extremes", &MemberState::extremes)};
+inline constexpr auto kFields<MemberPeaks> =
+    std::tuple{field("axial_force", &MemberPeaks::axial_force),
+               field("shear_force", &MemberPeaks::shear_force),
+               field("bending_moment", &MemberPeaks::bending_moment),
+               internal(&MemberPeaks::displacement),
+               field("displacement", [](const MemberPeaks& one) { return LargestPeak{one.displacement}; }),
+               field<kIfAny>("utilisation", &MemberPeaks::utilisation)};
+
+template <>
+inline constexpr auto kFields<MemberState> =
+    std::tuple{field<kKey>("id", &MemberState::id),
+               field("s", &MemberState::s),
+               field("x0", &MemberState::x0),
+               field("y0", &MemberState::y0),
+               field("x", &MemberState::x),
+               field("y", &MemberState::y),
+               field("u", &MemberState::u),
+               field("v", &MemberState::v),
+               field("rotation", &MemberState::rotation),
+               field("axial_force", &MemberState::axial_force),
+               field("shear_force", &MemberState::shear_force),
+               field("bending_moment", &MemberState::bending_moment),
+               field<kIfAny>("utilisation_left", &MemberState::utilisation_left),
+               field<kIfAny>("utilisation_right", &MemberState::utilisation_right),
+               field("extremes", &MemberState::extremes)};
 
 template <>
 inline constexpr auto kFields<SupportState> =
@@ -201,17 +211,19 @@ inline constexpr auto kFields<SupportState> =
                field("fy", &SupportState::fy), field("moment", &SupportState::moment)};
 
 template <>
-inline constexpr auto kFields<SpringState> =
-    std::tuple{field<kKey>("id", &SpringState::id), field("force", &SpringState::force),
-               field("displacement", &SpringState::displacement), field("closed", &SpringState::closed),
-               field("resultant", &SpringState::resultant)};
+inline constexpr auto kFields<SpringState> = std::tuple{field<kKey>("id", &SpringState::id),
+                                                        field("force", &SpringState::force),
+                                                        field("displacement", &SpringState::displacement),
+                                                        field("closed", &SpringState::closed),
+                                                        field("resultant", &SpringState::resultant),
+                                                        field<kIfAny>("mobilised", &SpringState::mobilised)};
 
 template <>
 inline constexpr auto kFields<FoundationState> = std::tuple{
     field<kKey>("id", &FoundationState::id),       field("s", &FoundationState::s),
     field("reaction", &FoundationState::reaction), field("displacement", &FoundationState::displacement),
     field("contact", &FoundationState::contact),   field("resultant", &FoundationState::resultant),
-    field("extremes", &FoundationState::extremes)};
+    field("extremes", &FoundationState::extremes), field<kIfAny>("mobilised", &FoundationState::mobilised)};
 
 /// `tangent` is null where the place has no stiffness matrix.
 template <>
@@ -258,6 +270,31 @@ inline constexpr auto kFields<Extreme> =
     std::tuple{field("value", &Extreme::value), field("s", &Extreme::s), field("branch", &Extreme::branch),
                field("load_factor", &Extreme::load_factor)};
 
+/// Documents have the place beside branch and load factor.
+template <>
+inline constexpr auto kFields<UtilisationExtreme> =
+    std::tuple{internal(&UtilisationExtreme::place),
+               field("value", [](const UtilisationExtreme& one) { return one.place.value; }),
+               field("s", [](const UtilisationExtreme& one) { return one.place.s; }),
+               field("fibre", [](const UtilisationExtreme& one) { return one.place.fibre; }),
+               field("branch", &UtilisationExtreme::branch),
+               field("load_factor", &UtilisationExtreme::load_factor)};
+
+template <>
+inline constexpr auto kFields<FirstYield> =
+    std::tuple{field("load_factor", &FirstYield::load_factor),
+               field("error_estimate", &FirstYield::error_estimate),
+               field("arc_length", &FirstYield::arc_length),
+               field("member", &FirstYield::member),
+               internal(&FirstYield::place),
+               field("s", [](const FirstYield& one) { return one.place.s; }),
+               field("fibre", [](const FirstYield& one) { return one.place.fibre; }),
+               field("stress",
+                     [](const FirstYield& one) {
+                       return std::string_view(one.place.value > 0.0 ? "tension" : "compression");
+                     }),
+               field("monitors", &FirstYield::monitors)};
+
 template <>
 inline constexpr auto kFields<ExtremeRange> =
     std::tuple{field("min", &ExtremeRange::min), field("max", &ExtremeRange::max)};
@@ -276,7 +313,8 @@ inline constexpr auto kFields<MemberExtremes> = std::tuple{
     field("shear_force", &MemberExtremes::shear_force),
     field("bending_moment", &MemberExtremes::bending_moment),
     internal(&MemberExtremes::displacement),
-    field("displacement", [](const MemberExtremes& one) { return LargestExtreme{one.displacement}; })};
+    field("displacement", [](const MemberExtremes& one) { return LargestExtreme{one.displacement}; }),
+    field<kIfAny>("utilisation", &MemberExtremes::utilisation)};
 
 /// Documents have the extremes of all members in an object `members`.
 struct AllExtremes {
@@ -361,6 +399,7 @@ inline constexpr auto kFields<Result> = std::tuple{
                   [](const Result& result) {
                     return result.extremes ? std::optional(AllExtremes{*result.extremes}) : std::nullopt;
                   }),
+    field<kIfAny>("first_yield", &Result::first_yield),
     field<kIfAny>("worst_imperfection", &Result::worst_imperfection),
     field("warnings", &Result::warnings),
     field("discretization", &Result::discretization),
@@ -375,8 +414,8 @@ static_assert(
                         Sensitivity, KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion,
                         CapacityLimit, ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState,
                         SupportState, SpringState, FoundationState, State, StaticTable, BucklingResult,
-                        Extreme, ExtremeRange, MemberExtremes, Warning, MeshReport, Diagnostics,
-                        MemberOffsets, WorstOffset, Failure, Result>,
+                        Extreme, UtilisationExtreme, ExtremeRange, MemberExtremes, FirstYield, Utilisation,
+                        Warning, MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure, Result>,
     "A member of solver/result.h has no line in its table: add field(...), or internal(...) where documents "
     "do not have it.");
 

@@ -23,10 +23,11 @@ constexpr std::string_view kCritical = name_of(kAnalysisTypes, AnalysisType::cri
 constexpr std::string_view kPath = name_of(kAnalysisTypes, AnalysisType::path);
 constexpr std::string_view kStatic = name_of(kAnalysisTypes, AnalysisType::static_);
 constexpr std::string_view kBuckling = name_of(kAnalysisTypes, AnalysisType::buckling);
-constexpr std::array<PartOfAnalysis, 10> kParts{{{"critical_points", {kCritical, kPath}},
+constexpr std::array<PartOfAnalysis, 11> kParts{{{"critical_points", {kCritical, kPath}},
                                                  {"contact_events", {kCritical, kPath}},
                                                  {"neutral_motion", {kCritical, kPath, kStatic}},
                                                  {"capacity", {kCritical, kPath, kStatic}},
+                                                 {"first_yield", {kCritical, kPath}},
                                                  {"branches", {kPath}},
                                                  {"states", {kCritical, kPath, kStatic}},
                                                  {"extremes", {kCritical, kPath, kStatic}},

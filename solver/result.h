@@ -201,18 +201,29 @@ struct PeakRange {
   Peak min;
   Peak max;
 };
+/// Outer fibre of a member, on the left or right of its axis as seen from its start to its end.
+enum class Fibre { left, right };
+/// Stress over strength in an outer fibre, with the sign of the stress: positive in tension.
+struct Utilisation {
+  double value = 0.0;
+  double s = 0.0;
+  Fibre fibre = Fibre::left;
+};
 /// Extreme values along a whole member in one state, between the places of its lists too.
 struct MemberPeaks {
   PeakRange axial_force;
   PeakRange shear_force;
   PeakRange bending_moment;
-  Peak displacement;  ///< largest hypot(u, v)
+  Peak displacement;                            ///< largest hypot(u, v)
+  std::optional<Utilisation> utilisation = {};  ///< largest in size; empty: the section has no strength
 };
 /// Values at equally spaced positions of a member: x0, y0 undeformed (with imperfections), x, y deformed; u,
 /// v displacements in global axes.
 struct MemberState {
   std::string id;
   std::vector<double> s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment;
+  /// Stress over strength in the outer fibres, positive in tension; empty: the section has no strength.
+  std::vector<double> utilisation_left = {}, utilisation_right = {};
   MemberPeaks extremes = {};
 };
 /// Reaction of a support on the structure in global axes; moment about its node.
@@ -228,6 +239,7 @@ struct SpringState {
   double displacement = 0.0;  ///< along the direction; for a rotational spring the rotation
   bool closed = false;        ///< the spring acts
   Resultant resultant;        ///< force on the structure
+  std::optional<double> mobilised = {};  ///< |force| over the capacity of the law; empty: it has none
 };
 struct FoundationState {
   std::string id;
@@ -236,6 +248,7 @@ struct FoundationState {
   std::vector<std::array<double, 2>> contact;  ///< intervals [s0, s1] in contact, in the member's s
   Resultant resultant;                         ///< force of the medium on the structure, with the shear layer
   PeakRange extremes = {};                     ///< extremes of the reaction along the whole range
+  std::vector<double> mobilised = {};          ///< |reaction| over the law's capacity; empty: it has none
 };
 /// Equilibrium state: reactions and the resultants of springs, foundations and loads sum to zero.
 /// Tangent stiffness of a place at a state: a node, or a place of a member.
@@ -288,6 +301,11 @@ struct Extreme {
   int branch = 0;
   double load_factor = 0.0;
 };
+struct UtilisationExtreme {
+  Utilisation place;
+  int branch = 0;
+  double load_factor = 0.0;
+};
 struct ExtremeRange {
   Extreme min;
   Extreme max;
@@ -297,7 +315,18 @@ struct MemberExtremes {
   ExtremeRange axial_force;
   ExtremeRange shear_force;
   ExtremeRange bending_moment;
-  Extreme displacement;  ///< largest hypot(u, v)
+  Extreme displacement;                                ///< largest hypot(u, v)
+  std::optional<UtilisationExtreme> utilisation = {};  ///< largest in size; empty: no strength is given
+};
+
+/// First state of the primary path in which the stress of an outer fibre reaches its strength.
+struct FirstYield {
+  double load_factor = 0.0;
+  std::optional<double> error_estimate;  ///< relative; empty: not estimated
+  double arc_length = 0.0;
+  std::string member;
+  Utilisation place = {};  ///< value 1 in tension, -1 in compression
+  std::vector<NamedValue> monitors;
 };
 
 /// Warning for the reader of a result. `code` is one of those that the OpenAPI document lists at
@@ -401,6 +430,7 @@ struct Result {
   std::optional<BucklingResult> buckling;
   std::optional<std::vector<Vibration>> vibrations = {};  ///< the analysis `vibration` has them
   std::optional<std::vector<MemberExtremes>> extremes;    ///< if requested; empty: no state was reached
+  std::optional<FirstYield> first_yield = {};             ///< empty: no path was followed, or none was met
   std::optional<WorstOffset> worst_imperfection = {};     ///< if the model has a worst imperfection
   std::vector<Warning> warnings;
   MeshReport discretization;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/model/finding.h"
+#include "solver/result.h"
 
 namespace snapthrough::api {
 
@@ -18,6 +19,7 @@ namespace snapthrough::api {
 struct Conversion {
   std::shared_ptr<nlohmann::json> document;  ///< members of `model`, such as "nodes"; null with findings
   std::vector<Finding> findings;
+  std::vector<Warning> warnings = {};  ///< what the document leaves out or does not join; convert_dxf() only
 };
 
 /// @brief Returns the `foundations` of a pile in layered soil: p-y laws of API RP 2GEO and Matlock by depth.
@@ -54,12 +56,14 @@ struct DxfOptions {
   std::vector<std::string> layers;  ///< layers to read; empty: all
   std::optional<double> tolerance;  ///< nodes join within it, > 0; default: 1e-6 of the larger side of the
                                     ///< rectangle around all end points
+  bool join_tees = false;           ///< divide a segment where an end lies on it within the tolerance
 };
 
 /// @brief Returns `nodes`, `members` and `sections` from the lines, arcs and polylines of an ASCII drawing.
 ///
 /// A member is a line or an arc; the name of its layer is the id of its section. A finding names its place by
-/// the line of the file, such as "line 12".
+/// the line of the file, such as "line 12". Segments that are drawn twice give one member. Warnings tell
+/// those, ends that are joined at a distance, and places that only look joined (api/convert/dxf_joints.h).
 [[nodiscard]] Conversion convert_dxf(std::string_view text, const DxfOptions& options);
 
 /// Returns the text of converted parts, as `snapthrough convert` prints it.

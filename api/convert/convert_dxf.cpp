@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/convert/convert.h"
+#include "api/convert/dxf_joints.h"
 #include "api/convert/dxf_segments.h"
 #include "solver/check/check_place.h"
 #include "solver/model/limits.h"
@@ -19,10 +20,13 @@ namespace convert {
 namespace {
 
 using nlohmann::json;
-using Point = std::array<double, 2>;
+using Point = PlanePoint;
 
 /// Part of the drawing's size within which end points join by default.
 constexpr double kRelativeTolerance = 1e-6;
+/// Rounding of a coordinate, in parts of the largest number that it was computed from: some operations of a
+/// drawing program and of an arc's ends.
+constexpr double kRelativeRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// @brief Nodes of a drawing. A point within the tolerance of a node is the nearest such node, else it is a
 /// new node.
@@ -94,6 +98,16 @@ double tolerance_of(const DxfOptions& options, const std::vector<Segment>& segme
   return options.tolerance.value_or(size > 0.0 ? kRelativeTolerance * size : 1.0);
 }
 
+/// Returns the distance that rounding may put between the ends of two segments that are meant to meet.
+double rounding_of(const std::vector<Segment>& segments) {
+  double largest = 0.0;
+  for (const Segment& segment : segments) {
+    largest = std::max({largest, segment.extent, std::abs(segment.start[0]), std::abs(segment.start[1]),
+                        std::abs(segment.end[0]), std::abs(segment.end[1])});
+  }
+  return kRelativeRounding * largest;
+}
+
 /// Reports layers that were asked for and have no segment.
 void require_layers(const DxfOptions& options, const std::vector<Segment>& segments,
                     std::vector<Finding>& findings) {
@@ -130,13 +144,20 @@ json sections_of(const std::vector<Segment>& segments, std::vector<Finding>& fin
 /// Returns ids for numbers from 1.
 std::string id_of(std::size_t index) { return std::to_string(index + 1); }
 
-json members_of(const std::vector<Segment>& segments, double tolerance, NodeSet& nodes,
-                std::vector<Finding>& findings) {
-  json members = json::array();
+/// Joins the ends of the segments to nodes; a piece is a whole segment.
+std::vector<Piece> pieces_of(const std::vector<Segment>& segments, double tolerance, NodeSet& nodes,
+                             Moves& moves, std::vector<Finding>& findings) {
+  std::vector<Piece> pieces;
+  const auto node_at = [&](const Point& end, const Segment& segment) {
+    const std::size_t node = nodes.index_of(end);
+    const Point& at = nodes.points()[node];
+    moves.add(std::hypot(at[0] - end[0], at[1] - end[1]), end, segment);
+    return static_cast<int>(node);
+  };
   for (const Segment& segment : segments) {
     WorkLimit::poll();
-    const std::size_t start = nodes.index_of(segment.start);
-    const std::size_t end = nodes.index_of(segment.end);
+    const int start = node_at(segment.start, segment);
+    const int end = node_at(segment.end, segment);
     if (start == end) {
       findings.push_back(finding_at(
           segment.line, "zero_length",
@@ -146,16 +167,67 @@ json members_of(const std::vector<Segment>& segments, double tolerance, NodeSet&
       findings.push_back(finding_at(segment.line, "out_of_range",
                                     "z must be 0 within the tolerance " + checks::text(tolerance)));
     }
+    pieces.push_back({&segment, start, end, segment.sweep_degrees});
+  }
+  return pieces;
+}
+
+json members_of(const std::vector<Piece>& pieces) {
+  json members = json::array();
+  for (const Piece& piece : pieces) {
     json member{{"id", id_of(members.size())},
-                {"start", id_of(start)},
-                {"end", id_of(end)},
-                {"section", segment.layer}};
-    if (segment.sweep_degrees != 0.0) {
-      member["curve"] = {{"type", "arc"}, {"sweep_degrees", segment.sweep_degrees}};
+                {"start", id_of(static_cast<std::size_t>(piece.start))},
+                {"end", id_of(static_cast<std::size_t>(piece.end))},
+                {"section", piece.drawn->layer}};
+    if (piece.sweep_degrees != 0.0) {
+      member["curve"] = {{"type", "arc"}, {"sweep_degrees", piece.sweep_degrees}};
     }
     members.push_back(std::move(member));
   }
   return members;
+}
+
+json nodes_of(const NodeSet& nodes) {
+  json list = json::array();
+  for (const Point& point : nodes.points()) {
+    list.push_back({{"id", id_of(list.size())}, {"x", point[0]}, {"y", point[1]}});
+  }
+  return list;
+}
+
+Finding too_many(const char* what, std::size_t most) {
+  return {"ENTITIES", "too_many", "a drawing may give at most " + std::to_string(most) + " " + what};
+}
+
+/// Adds nodes and members to the parts of a model, and warnings.
+void join(const std::vector<Segment>& segments, const DxfOptions& options, json& parts,
+          Conversion& conversion) {
+  std::vector<Finding>& findings = conversion.findings;
+  const double tolerance = tolerance_of(options, segments);
+  const double rounding = rounding_of(segments);
+  NodeSet nodes(tolerance);
+  Moves moves(rounding);
+  std::vector<Piece> pieces = pieces_of(segments, tolerance, nodes, moves, findings);
+  if (nodes.points().size() > kMaxNodes) {
+    findings.push_back(too_many("nodes", kMaxNodes));
+  }
+  if (!findings.empty()) {
+    return;
+  }
+  std::vector<Warning>& warnings = conversion.warnings;
+  moves.warn("joined_ends", "end is joined to a node at other coordinates",
+             "ends are joined to nodes at other coordinates",
+             "ends within the tolerance " + rounded(tolerance) + " are one node at the first of them",
+             warnings);
+  pieces = joints({std::move(pieces), PointTree(nodes.points()), nodes.points().size(), tolerance, rounding,
+                   options.join_tees},
+                  warnings);
+  if (pieces.size() > kMaxMembers) {
+    findings.push_back(too_many("members", kMaxMembers));
+    return;
+  }
+  parts["members"] = members_of(pieces);
+  parts["nodes"] = nodes_of(nodes);
 }
 
 }  // namespace
@@ -175,23 +247,12 @@ Conversion convert_dxf(std::string_view text, const DxfOptions& options) {
   if (!findings.empty()) {
     return conversion;
   }
-  const double tolerance = convert::tolerance_of(options, segments);
-  convert::NodeSet nodes(tolerance);
   nlohmann::json parts;
   parts["sections"] = convert::sections_of(segments, findings);
   if (!findings.empty()) {
     return conversion;  // each member would repeat the name of its layer, however long it is
   }
-  parts["members"] = convert::members_of(segments, tolerance, nodes, findings);
-  parts["nodes"] = nlohmann::json::array();
-  for (std::size_t i = 0; i < nodes.points().size(); ++i) {
-    parts["nodes"].push_back(
-        {{"id", convert::id_of(i)}, {"x", nodes.points()[i][0]}, {"y", nodes.points()[i][1]}});
-  }
-  if (parts["nodes"].size() > kMaxNodes) {
-    findings.push_back(
-        {"ENTITIES", "too_many", "a drawing may give at most " + std::to_string(kMaxNodes) + " nodes"});
-  }
+  convert::join(segments, options, parts, conversion);
   if (findings.empty()) {
     conversion.document = std::make_shared<nlohmann::json>(std::move(parts));
   }

@@ -126,7 +126,8 @@ void SegmentReader::read_arc(const Entity& entity) {
     report(entity.line, "closed", "the arc is a full circle, which has no ends: draw it as two arcs");
   }
   segments_.push_back({entity.line, layer_of(entity), point_at(from), point_at(to),
-                       turn > 0.0 ? turn : turn + kFullTurn, std::abs(optional(entity, 30, 0.0))});
+                       turn > 0.0 ? turn : turn + kFullTurn, std::abs(optional(entity, 30, 0.0)),
+                       std::max(std::abs(centre[0]), std::abs(centre[1])) + std::abs(radius)});
 }
 
 /// Reads LWPOLYLINE, in which code 10 begins a vertex.

@@ -20,6 +20,7 @@ struct Segment {
   std::array<double, 2> start{}, end{};
   double sweep_degrees = 0.0;  ///< angle by which an arc turns to the left; 0: a line
   double elevation = 0.0;      ///< largest |z|
+  double extent = 0.0;         ///< largest number that the coordinates of its ends were computed from
 };
 
 /// @brief Returns the segments of the entities in model space on the given layers, in the order of the file.

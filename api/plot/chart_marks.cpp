@@ -21,6 +21,12 @@ PlacedMark placed_mark(const Softest& softest, Pixel at) {
            {"softest, ratio " + format_number(softest.ratio, 3), "muted"}}};
 }
 
+PlacedMark placed_mark(const FirstYield& yield, Pixel at) {
+  return {Mark::first_yield,
+          at,
+          {{format_number(yield.load_factor, 5), "", true}, {mark_text(Mark::first_yield), "muted"}}};
+}
+
 void draw_marks(const std::vector<PlacedMark>& marks, Occupancy& taken, std::vector<Shape>& shapes) {
   std::vector<Shape> drawn;
   for (const PlacedMark& mark : marks) {

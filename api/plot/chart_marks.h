@@ -23,6 +23,8 @@ struct PlacedMark {
 [[nodiscard]] PlacedMark placed_mark(const CriticalPoint& point, Pixel at);
 /// Returns the mark of the softest point; its label has the load factor and the stiffness ratio.
 [[nodiscard]] PlacedMark placed_mark(const Softest& softest, Pixel at);
+/// Returns the mark of first yield; its label has the load factor.
+[[nodiscard]] PlacedMark placed_mark(const FirstYield& yield, Pixel at);
 
 /// Draws marks, then the labels that find room; the first label is drawn even over lines.
 void draw_marks(const std::vector<PlacedMark>& marks, Occupancy& taken, std::vector<Shape>& shapes);

@@ -37,6 +37,10 @@ struct ResultInput {
 /// @param model the model that has the spring or foundation; it need not be valid otherwise
 [[nodiscard]] Figure law_figure(const Field& model, const PlotRequest& request, Size size);
 
+/// Draws the laws of all supports, those of foundations by depth or place, in a diagram for each direction.
+/// @param model as of law_figure(), with its nodes and members
+[[nodiscard]] Figure laws_figure(const Field& model, const PlotRequest& request, Size size);
+
 /// @brief Draws circular frequencies over the load factor, each motion a line. A motion that diverges is
 /// below zero; the lines of a pair that flutters lie on one another, at the frequency of its growing
 /// vibration.

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "api/list_foundations.h"
 
 namespace snapthrough::api::plot {
-namespace {
 
-/// Reads a number, or {"along": [[fraction, value], ...]}; no value may be negative.
-AlongMember read_number(const Field& field) {
+AlongMember read_number_along(const Field& field) {
   const auto need_not_negative = [](const Field& place, double value) {
     if (value < 0) {
       place.fail("must not be negative");
@@ -38,6 +37,8 @@ AlongMember read_number(const Field& field) {
   return AlongMember(std::move(points));
 }
 
+namespace {
+
 /// Reads the points (w, p) of a table, whose displacements ascend from the origin.
 std::vector<std::array<double, 2>> read_points(const Field& field) {
   std::vector<std::array<double, 2>> points;
@@ -61,7 +62,9 @@ std::vector<std::array<double, 2>> read_points(const Field& field) {
   return points;
 }
 
-ReactionLaw read_law(const Field& field) {
+}  // namespace
+
+ReactionLaw read_reaction_law(const Field& field) {
   const Field type = field.at("type");
   const std::string name = type.text();
   ReactionLaw law;
@@ -69,7 +72,7 @@ ReactionLaw read_law(const Field& field) {
     law.type = ReactionLaw::Type::table;
     law.points = read_points(field.at("points"));
     const std::optional<Field> factor = field.find("factor");
-    law.factor = factor ? read_number(*factor) : AlongMember(1);
+    law.factor = factor ? read_number_along(*factor) : AlongMember(1);
     const std::string between = text_or(field, "interpolation", "monotone_cubic");
     if (between != "monotone_cubic" && between != "linear") {
       field.at("interpolation").fail("must be monotone_cubic or linear");
@@ -78,8 +81,8 @@ ReactionLaw read_law(const Field& field) {
         between == "linear" ? ReactionLaw::Interpolation::linear : ReactionLaw::Interpolation::monotone_cubic;
     return law;
   }
-  law.stiffness = read_number(field.at("stiffness"));
-  law.capacity = read_number(field.at("capacity"));
+  law.stiffness = read_number_along(field.at("stiffness"));
+  law.capacity = read_number_along(field.at("capacity"));
   if (name == "tanh") {
     law.type = ReactionLaw::Type::tanh;
   } else if (name == "hyperbolic") {
@@ -100,6 +103,14 @@ ReactionLaw read_law(const Field& field) {
   return law;
 }
 
+FoundationLaw law_in_units_of_model(const ReactionLaw& given) {
+  Foundation foundation;
+  foundation.law = given;
+  return law_of(foundation, Scales{});
+}
+
+namespace {
+
 /// Sets reach and ends of p = min(k w, P (w/w0)^n, P). The line meets the power before it meets the capacity
 /// where k w0 > P.
 void set_power_parts(const ReactionLaw& given, LawCurve& curve) {
@@ -112,8 +123,18 @@ void set_power_parts(const ReactionLaw& given, LawCurve& curve) {
   }
 }
 
+/// Returns the displacement of the first of the last points of a table that have the same force.
+double constant_from(const std::vector<std::array<double, 2>>& points) {
+  std::size_t first = points.size() - 1;
+  while (first > 0 && points[first - 1][1] == points.back()[1]) {
+    --first;
+  }
+  return points[first][0];
+}
+
 void set_parts(const ReactionLaw& given, LawCurve& curve) {
   if (!(curve.law.stiffness > 0 && curve.law.capacity > 0)) {
+    curve.flat_from = curve.law.stiffness > 0 ? curve.flat_from : 0;  // linear, or zero
     return;
   }
   const double yielding = curve.law.capacity / curve.law.stiffness;
@@ -124,13 +145,48 @@ void set_parts(const ReactionLaw& given, LawCurve& curve) {
       }
     }
     curve.reach = curve.ends.back();
+    curve.flat_from = constant_from(given.points);
   } else if (given.type == ReactionLaw::Type::power) {
     set_power_parts(given, curve);
+    curve.flat_from = curve.ends.back();
   } else if (given.type != ReactionLaw::Type::linear) {
     // nine tenths of the capacity: tanh 1.5 = 0.905, and 9 / (1 + 9) of laws that approach it slowly
     curve.reach = (given.type == ReactionLaw::Type::tanh ? 1.5 : 9.0) * yielding;
   }
 }
+
+}  // namespace
+
+LawCurve law_curve_at(const ReactionLaw& given, const FoundationLaw& law, double fraction) {
+  LawCurve curve{fraction, law.at(fraction), 0, {}};
+  set_parts(given, curve);
+  return curve;
+}
+
+std::pair<double, bool> read_gap_of_law(const Field& support, const std::string& reaction) {
+  const std::optional<Field> gap = support.find("gap");
+  if (!gap || reaction == "bilateral") {
+    return {0, false};
+  }
+  if (gap->json().is_object()) {
+    return {0, true};
+  }
+  const double value = gap->number();
+  if (value < 0) {
+    gap->fail("must not be negative");
+  }
+  return {value, false};
+}
+
+std::string read_reaction_sense(const Field& support) {
+  const std::string reaction = text_or(support, "reaction", "bilateral");
+  if (reaction != "bilateral" && reaction != "compression_only" && reaction != "tension_only") {
+    support.at("reaction").fail("must be bilateral, compression_only or tension_only");
+  }
+  return reaction;
+}
+
+namespace {
 
 /// Returns whether a number of the law varies along the member.
 bool varies(const ReactionLaw& law) {
@@ -147,18 +203,6 @@ std::vector<double> read_fractions(const Field& support, bool law_varies) {
   return {ends[0], 0.5 * (ends[0] + ends[1]), ends[1]};
 }
 
-void read_gap(const Field& support, SupportLaw& out) {
-  const std::optional<Field> gap = support.find("gap");
-  if (!gap || out.reaction == "bilateral") {
-    return;
-  }
-  out.gap_varies = gap->json().is_object();
-  out.gap = out.gap_varies ? 0 : gap->number();
-  if (out.gap < 0) {
-    gap->fail("must not be negative");
-  }
-}
-
 SupportLaw read_support(const Field& support, bool is_spring) {
   SupportLaw out;
   out.id = support.at("id").text();
@@ -167,21 +211,15 @@ SupportLaw read_support(const Field& support, bool is_spring) {
   const std::optional<Field> direction = support.find("direction");
   out.turns = is_spring ? direction && direction->json() == "rotation"
                         : text_or(support, "component", "normal") == "rotation";
-  out.reaction = text_or(support, "reaction", "bilateral");
-  if (out.reaction != "bilateral" && out.reaction != "compression_only" && out.reaction != "tension_only") {
-    support.at("reaction").fail("must be bilateral, compression_only or tension_only");
-  }
-  read_gap(support, out);
-  const ReactionLaw given = read_law(support.at("law"));
-  Foundation foundation;
-  foundation.law = given;
-  const FoundationLaw law = law_of(foundation, Scales{});  // in the model's units
+  out.reaction = read_reaction_sense(support);
+  std::tie(out.gap, out.gap_varies) = read_gap_of_law(support, out.reaction);
+  const ReactionLaw given = read_reaction_law(support.at("law"));
+  const FoundationLaw law = law_in_units_of_model(given);
   out.form = law.curve;
   double reach = 0;
   for (const double fraction : read_fractions(support, varies(given))) {
-    LawCurve& curve = out.curves.emplace_back(LawCurve{fraction, law.at(fraction), 0, {}});
-    set_parts(given, curve);
-    reach = std::max(reach, curve.reach);
+    out.curves.push_back(law_curve_at(given, law, fraction));
+    reach = std::max(reach, out.curves.back().reach);
   }
   if (!(reach > 0 && std::isfinite(reach))) {
     support.at("law").fail("has a reaction of zero, or too large a displacement, wherever it would be drawn");

@@ -2,9 +2,11 @@
 /// @file
 /// The law of a spring or foundation of a model: its reaction p over the displacement w into the medium.
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/plot/document.h"
@@ -18,6 +20,8 @@ struct LawCurve {
   Law law;                   ///< one-sided supports: for displacements beyond the gap
   double reach = 0;          ///< displacement at which p is 90 % of the capacity or more; 0: p is zero
   std::vector<double> ends;  ///< ascending displacements > 0 at which a part of p ends
+  /// Displacement beyond which p is constant; infinite where it is nowhere.
+  double flat_from = std::numeric_limits<double>::infinity();
 };
 
 /// A spring or foundation with a `law`, in the model's units.
@@ -34,6 +38,20 @@ struct SupportLaw {
   std::vector<LawCurve> curves;
   std::shared_ptr<const ReactionCurve> form;  ///< owns what the laws of the curves refer to
 };
+
+/// @brief Reads the law of a spring, foundation or release.
+/// @throws PlotError when it breaks a rule of docs/requests.md, "Laws"
+[[nodiscard]] ReactionLaw read_reaction_law(const Field& law);
+/// Reads a number that may vary along its member, and is not negative.
+[[nodiscard]] AlongMember read_number_along(const Field& number);
+/// Returns a law per length in the model's units, for displacements beyond the gap.
+[[nodiscard]] FoundationLaw law_in_units_of_model(const ReactionLaw& given);
+/// Returns the curve of a law at a fraction of its member's length. @param law law_in_units_of_model(given)
+[[nodiscard]] LawCurve law_curve_at(const ReactionLaw& given, const FoundationLaw& law, double fraction);
+/// Reads the gap of a support: its number, and whether it varies along the member. Bilateral ones have none.
+[[nodiscard]] std::pair<double, bool> read_gap_of_law(const Field& support, const std::string& reaction);
+/// Reads the `reaction` of a support. @throws PlotError when it is none
+[[nodiscard]] std::string read_reaction_sense(const Field& support);
 
 /// @brief Reads the law of a spring or foundation.
 /// @param id of the spring or foundation; nullopt: the first one with a law, springs first

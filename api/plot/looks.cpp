@@ -63,7 +63,7 @@ line, path { stroke-linecap: round; stroke-linejoin: round; }
 .bifurcation { fill: $branch; }
 .broken { fill: $paper; stroke: $branch; stroke-width: 1.8; }
 .flutter { fill: $branch; }
-.softest { fill: $paper; stroke: $ink; stroke-width: 2; }
+.softest, .yield { fill: $paper; stroke: $ink; stroke-width: 2; }
 .event { fill: $contact; stroke-width: 1; }
 .event.open { fill: $paper; stroke: $contact; stroke-width: 1.6; }
 .row { fill: $accent; }
@@ -108,13 +108,25 @@ line, path { stroke-linecap: round; stroke-linejoin: round; }
 }
 )";
 
+/// Looks of laws by depth, which the page does not draw and other figures do not need.
+constexpr std::string_view kLawLooks = R"(
+.law-line { stroke: currentColor; stroke-width: 1.8; } .law-flat { stroke-dasharray: 5 4; }
+.law-peak { fill: currentColor; } .law-residual { fill: $paper; stroke: currentColor; stroke-width: 1.6; }
+.law-value { fill: currentColor; font-size: 11px; }
+.depth-0 { color: $depth0; } .depth-1 { color: $depth1; } .depth-2 { color: $depth2; }
+.depth-3 { color: $depth3; } .depth-4 { color: $depth4; } .depth-5 { color: $depth5; }
+.depth-6 { color: $depth6; } .depth-7 { color: $depth7; } .depth-8 { color: $depth8; }
+)";
+
 struct Colour {
   std::string_view name;
   std::string_view light;
   std::string_view dark;
 };
 
-/// The search takes the first match: a name stands before its prefixes ("accentsoft" before "accent").
+/// depth0 to depth8: from top to bottom; equal steps of lightness, away from the paper, at a contrast of 3
+/// and more. The search takes the first match: a name stands before its prefixes ("accentsoft" before
+/// "accent").
 constexpr Colour kColours[] = {{"paper", "#fff", "#161b22"},         {"ink", "#1c2430", "#e6eaf0"},
                                {"muted", "#6b7686", "#98a3b3"},      {"line", "#e3e6ea", "#2a323d"},
                                {"strong", "#c3c9d1", "#465160"},     {"accentsoft", "#dce8f5", "#1f3350"},
@@ -122,7 +134,12 @@ constexpr Colour kColours[] = {{"paper", "#fff", "#161b22"},         {"ink", "#1
                                {"contact", "#d9730d", "#f0923a"},    {"branchsoft", "#ece2f6", "#372a49"},
                                {"branch", "#7b3fb5", "#b98ae8"},     {"momentsoft", "#f6dddb", "#4a2523"},
                                {"moment", "#b3261e", "#ef7b73"},     {"neutralsoft", "#e9ecf0", "#252c36"},
-                               {"groundline", "#b9a98c", "#7d7156"}, {"ground", "#f3ede2", "#262219"}};
+                               {"groundline", "#b9a98c", "#7d7156"}, {"ground", "#f3ede2", "#262219"},
+                               {"depth0", "#d67b19", "#954ea5"},     {"depth1", "#d06338", "#b157a3"},
+                               {"depth2", "#c34f50", "#cc629d"},     {"depth3", "#b03f64", "#e46f95"},
+                               {"depth4", "#983474", "#f97f8b"},     {"depth5", "#7c2d7f", "#ff998b"},
+                               {"depth6", "#5e2884", "#feb497"},     {"depth7", "#3d2483", "#ffcca9"},
+                               {"depth8", "#17207a", "#fee3c5"}};
 
 /// Returns a declaration block with names replaced by colours.
 std::string coloured(std::string_view block, bool dark) {
@@ -158,10 +175,9 @@ std::string scoped(std::string_view selectors, std::string_view scope) {
   return text;
 }
 
-std::string looks(bool dark) {
+/// Appends the rules of a style sheet for one theme.
+void append_rules(std::string& text, std::string_view rest, bool dark) {
   const std::string_view scope = dark ? ".figure.dark" : ".figure.light";
-  std::string_view rest = kLooks;
-  std::string text;
   while (rest.find('{') != std::string_view::npos) {
     rest.remove_prefix(rest.find_first_not_of(" \n"));
     if (rest.starts_with('@') || rest.starts_with('}')) {  // start or end of an @ rule's block
@@ -178,6 +194,14 @@ std::string looks(bool dark) {
     text.append(coloured(rest.substr(open, close - open), dark)).append("\n");
     rest.remove_prefix(close);
   }
+}
+
+std::string looks(bool dark, bool has_laws) {
+  std::string text;
+  if (has_laws) {
+    append_rules(text, kLawLooks, dark);
+  }
+  append_rules(text, kLooks, dark);
   return text + "}\n";  // the last } ends the @ rule
 }
 
@@ -229,7 +253,7 @@ std::string file_of(Figure figure, Size file, const std::string& heading, bool d
   shapes.push_back(
       element("title", {}, {text_node(heading.empty() ? figure.title : heading + ": " + figure.title)}));
   shapes.push_back(element("desc", {}, {text_node(figure.description)}));
-  shapes.push_back(element("style", {}, {text_node(looks(dark))}));
+  shapes.push_back(element("style", {}, {text_node(looks(dark, figure.has_laws))}));
   shapes.push_back(rectangle("paper", {0, 0, file.width, file.height}));
   double y = kMargin + kHeadingSize - 2;
   for (const std::string& row : heading_rows(heading, width)) {

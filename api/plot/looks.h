@@ -15,6 +15,7 @@ struct Figure {
   std::string title;        ///< one sentence: what the figure plots
   std::string description;  ///< main numbers: critical points, extremes, ranges
   double height = 0;        ///< height in pixels that the figure uses; 0: all of its size
+  bool has_laws = false;    ///< whether laws by depth are drawn, whose looks others do not need
 };
 
 /// Returns the size in pixels that margins and heading leave for the figure in a file of the size `file`.

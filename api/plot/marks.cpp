@@ -18,6 +18,7 @@ constexpr Described kMarks[] = {{Mark::limit_max, "limit_max", "limit point"},
                                 {Mark::flutter, "flutter", "flutter"},
                                 {Mark::capacity, "capacity", "capacity of supports"},
                                 {Mark::softest, "softest", "softest point"},
+                                {Mark::first_yield, "first_yield", "first yield"},
                                 {Mark::closed, "closed", "contact made"},
                                 {Mark::opened, "opened", "contact lost"}};
 
@@ -86,6 +87,8 @@ Shape mark_shape(Mark mark, Pixel at) {
       return polygon("mark limit", at, {{-6, -5}, {6, -5}, {6, -1}, {-6, -1}});
     case Mark::softest:
       return polygon("mark softest", at, {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}});
+    case Mark::first_yield:
+      return polygon("mark yield", at, {{-4.5, -6}, {6.5, 0}, {-4.5, 6}});
     case Mark::closed:
       return circle("mark event", at, 3);
     case Mark::opened:

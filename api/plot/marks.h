@@ -19,6 +19,7 @@ enum class Mark {
   flutter,
   capacity,
   softest,
+  first_yield,
   closed,
   opened
 };
@@ -28,7 +29,8 @@ enum class Mark {
 /// Returns the name of a mark in legends.
 [[nodiscard]] const char* mark_text(Mark mark);
 /// Draws a mark. Triangle: limit point, maximum (up) or minimum (down); diamond: bifurcation, hollow when
-/// broken; hourglass: flutter; bar: capacity of supports; hollow square: softest point; dot: contact made;
+/// broken; hourglass: flutter; bar: capacity of supports; hollow square: softest point;
+/// hollow triangle to the right: first yield; dot: contact made;
 /// ring: contact lost.
 [[nodiscard]] Shape mark_shape(Mark mark, Pixel at);
 

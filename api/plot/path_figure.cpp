@@ -344,6 +344,20 @@ std::optional<Pixel> first_at_load(const Curve& curve, const Frame& frame, doubl
   return std::nullopt;
 }
 
+/// Returns the abscissa of a curve at an arc length.
+double abscissa_at(const Curve& curve, double arc) {
+  const auto beyond = std::find_if(curve.vertices.begin(), curve.vertices.end(),
+                                   [arc](const Vertex& vertex) { return vertex.arc > arc; });
+  if (beyond == curve.vertices.begin()) {
+    return curve.vertices.front().x;
+  }
+  if (beyond == curve.vertices.end()) {
+    return curve.vertices.back().x;
+  }
+  const Vertex& before = *(beyond - 1);
+  return between(before, *beyond, (arc - before.arc) / (beyond->arc - before.arc)).x;
+}
+
 std::vector<PlacedMark> marks_of(const PathData& path, const ResultInput& input,
                                  const std::vector<Curve>& curves, const Frame& frame) {
   std::vector<PlacedMark> marks;
@@ -359,21 +373,12 @@ std::vector<PlacedMark> marks_of(const PathData& path, const ResultInput& input,
       marks.push_back(placed_mark(*softest, *at));
     }
   }
+  const std::optional<FirstYield> yield = read_first_yield(input.result);
+  if (yield && !curves.empty() && curves.front().branch == 0) {
+    const double x = abscissa_at(curves.front(), yield->arc_length);
+    marks.push_back(placed_mark(*yield, place(frame, x, yield->load_factor)));
+  }
   return marks;
-}
-
-/// Returns the abscissa of a curve at an arc length.
-double abscissa_at(const Curve& curve, double arc) {
-  const auto beyond = std::find_if(curve.vertices.begin(), curve.vertices.end(),
-                                   [arc](const Vertex& vertex) { return vertex.arc > arc; });
-  if (beyond == curve.vertices.begin()) {
-    return curve.vertices.front().x;
-  }
-  if (beyond == curve.vertices.end()) {
-    return curve.vertices.back().x;
-  }
-  const Vertex& before = *(beyond - 1);
-  return between(before, *beyond, (arc - before.arc) / (beyond->arc - before.arc)).x;
 }
 
 void draw_events(const PathData& path, const std::vector<Curve>& curves, const Frame& frame,
@@ -406,7 +411,8 @@ void draw_rows(const PathData& path, const std::vector<Curve>& curves, const Fra
   }
 }
 
-std::vector<LegendEntry> legend_of(const PathData& path, const std::vector<Curve>& curves, bool softest) {
+std::vector<LegendEntry> legend_of(const PathData& path, const std::vector<Curve>& curves,
+                                   const Field& result) {
   std::set<Stability> kinds;
   bool branches = false;
   for (const Curve& curve : curves) {
@@ -432,8 +438,13 @@ std::vector<LegendEntry> legend_of(const PathData& path, const std::vector<Curve
   for (const ContactEvent& event : path.events) {
     marks.insert(event.mark);
   }
-  if (softest) {
-    marks.insert(Mark::softest);
+  if (!curves.empty() && curves.front().branch == 0) {
+    if (read_softest(result)) {
+      marks.insert(Mark::softest);
+    }
+    if (read_first_yield(result)) {
+      marks.insert(Mark::first_yield);
+    }
   }
   for (LegendEntry& mark : mark_entries(marks)) {
     entries.push_back(std::move(mark));
@@ -493,14 +504,16 @@ std::string description_of(const PathData& path, const std::vector<Curve>& curve
 Figure path_figure(const ResultInput& input, const PlotRequest& request, Size size) {
   const PathData path = read_path(input, request);
   const std::vector<Curve> curves = curves_of(path, request);
-  const bool softest = request.branch.value_or(0) == 0 && read_softest(input.result).has_value();
-  const std::vector<LegendEntry> legend = legend_of(path, curves, softest);
+  const std::vector<LegendEntry> legend = legend_of(path, curves, input.result);
   const Frame frame = frame_of(input, path, curves, size, legend_height(legend, size.width));
   Occupancy taken(size);
   keep_margins(frame, size, taken);
   Figure figure;
   figure.title = "Equilibrium path, load factor over " + frame.x_label;
   figure.description = description_of(path, curves);
+  if (const std::optional<FirstYield> yield = read_first_yield(input.result)) {
+    figure.description += " First yield at load factor " + format_number(yield->load_factor, 6) + ".";
+  }
   figure.shapes.push_back(frame_shape(frame, size));
   for (const Curve& curve : curves) {
     draw_curve(curve, frame, taken, figure.shapes);

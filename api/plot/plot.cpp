@@ -50,10 +50,9 @@ Field law_model(const nlohmann::json& document, const PlotRequest& request) {
   if (request.solved_request != nullptr && document.is_object() && is_result(document)) {
     return Field(*request.solved_request, PointerPath("request:")).at("model");
   }
-  throw PlotError(
-      "",
-      "the document has no model with nodes, whose laws a figure of kind law draws: give a request or "
-      "a model, or a result with the request that was solved");
+  throw PlotError("",
+                  "the document has no model with nodes, whose laws are drawn: give a request or "
+                  "a model, or a result with the request that was solved");
 }
 
 /// Whether a document is a model, with which nothing was computed and nothing is to be.
@@ -76,7 +75,7 @@ void need_drawable(const nlohmann::json& document) {
         sweep ? "/parameters" : "/analysis",
         std::string("the document is a request, not a result: solve it first, with snapthrough ") +
             (sweep ? "sweep" : "solve") +
-            ", or ask for the kind model, which draws its structure, or the kind law");
+            ", or ask for the kind model, which draws its structure, or the kind law or laws");
   }
   if (!is_result(document) && !is_model(document)) {
     throw PlotError("",
@@ -97,6 +96,9 @@ Size file_size(const PlotRequest& request, PlotKind kind) {
           checked(request.height, kind == PlotKind::sections ? 600 : 480, "the height")};
 }
 
+/// Whether a figure draws laws of a model.
+bool is_of_laws(std::optional<PlotKind> kind) { return kind == PlotKind::law || kind == PlotKind::laws; }
+
 bool is_for_table(PlotKind kind) { return kind == PlotKind::sweep || kind == PlotKind::heatmap; }
 
 /// Returns the kind of the figure that a document gets. @throws PlotError when the document has none of it
@@ -107,9 +109,9 @@ PlotKind kind_of(const nlohmann::json& document, const PlotRequest& request) {
     }
     return PlotKind::model;
   }
-  if (request.kind == PlotKind::law) {
+  if (is_of_laws(request.kind)) {
     (void)law_model(document, request);  // throws without a model
-    return PlotKind::law;
+    return *request.kind;
   }
   need_drawable(document);
   const PlotKind kind = request.kind ? *request.kind : default_plot_kind(document);
@@ -166,6 +168,8 @@ Figure figure_of(const plot::ResultInput& input, const PlotRequest& request, Plo
       return plot::model_figure(input, request, size);
     case PlotKind::law:
       return plot::law_figure(input.result, request, size);
+    case PlotKind::laws:
+      return plot::laws_figure(input.result, request, size);
     case PlotKind::frequencies:
       return plot::frequencies_figure(input, size);
     case PlotKind::stiffness:
@@ -210,7 +214,7 @@ std::string svg_of(const nlohmann::json& document, const PlotRequest& request) {
   plot::ResultInput input{field, std::nullopt, plot::read_units(field)};
   if (kind == PlotKind::model) {
     input.model = plot::read_model(*model_of(document));
-  } else if (kind == PlotKind::law) {
+  } else if (is_of_laws(kind)) {
     input.result = law_model(document, request);
   } else if (request.solved_request != nullptr && !is_for_table(kind)) {
     input.model = plot::read_model(Field(*request.solved_request, PointerPath("request:")).at("model"));

@@ -22,22 +22,20 @@ enum class PlotKind {
   mode,         ///< a buckling mode, or the mode of a critical point
   model,        ///< the undeformed structure of a request, with supports, springs, ground and loads
   law,          ///< reaction of a spring or foundation over its displacement, of a request or model
+  laws,         ///< reactions of all supports of a request or model over their displacements, by depth
   frequencies,  ///< natural circular frequencies over the load factor
   stiffness,    ///< stiffness ratio along the primary path over the load factor
   sweep,        ///< an output of a sweep over one parameter, a curve for each value of a second one
   heatmap       ///< an output of a sweep over two parameters
 };
 
-inline constexpr Named<PlotKind> kPlotKinds[] = {{"path", PlotKind::path},
-                                                 {"shape", PlotKind::shape},
-                                                 {"sections", PlotKind::sections},
-                                                 {"mode", PlotKind::mode},
-                                                 {"model", PlotKind::model},
-                                                 {"law", PlotKind::law},
-                                                 {"frequencies", PlotKind::frequencies},
-                                                 {"stiffness", PlotKind::stiffness},
-                                                 {"sweep", PlotKind::sweep},
-                                                 {"heatmap", PlotKind::heatmap}};
+inline constexpr Named<PlotKind> kPlotKinds[] = {
+    {"path", PlotKind::path},           {"shape", PlotKind::shape},
+    {"sections", PlotKind::sections},   {"mode", PlotKind::mode},
+    {"model", PlotKind::model},         {"law", PlotKind::law},
+    {"laws", PlotKind::laws},           {"frequencies", PlotKind::frequencies},
+    {"stiffness", PlotKind::stiffness}, {"sweep", PlotKind::sweep},
+    {"heatmap", PlotKind::heatmap}};
 
 /// Limits of documents to plot. They exceed those of requests: long paths and large sweeps have many values.
 inline constexpr ParseLimits kFigureLimits{64, 20'000'000};
@@ -62,7 +60,8 @@ struct PlotRequest {
   /// shape: factor of displacements, > 0. Default: 1, or a round number when displacements are too small to
   /// see; the caption states it. mode: amplitude in tenths of the structure's extent.
   std::optional<double> magnify;
-  /// law: id of the spring or foundation; default: the first one with a law, springs first
+  /// law: id of the spring or foundation; default: the first one with a law, springs first. laws: id of the
+  /// only spring, foundation, foundation in soil or member with joints that is drawn; default: all
   std::optional<std::string> law;
   std::optional<std::string> output;  ///< sweep, heatmap: column; default: the first output with numbers
   std::optional<std::string> x;       ///< sweep, heatmap: parameter on the horizontal axis
@@ -73,8 +72,8 @@ struct PlotRequest {
   /// none.
   std::size_t most_coordinates = std::numeric_limits<std::size_t>::max();
   /// The request that gave the result, or null. shape and mode need it for supports, springs, ground and
-  /// loads, path for direction and unit of monitors, law for the laws when the document has no model. It must
-  /// outlive the call.
+  /// loads, path for direction and unit of monitors, law and laws for the laws when the document has no
+  /// model. It must outlive the call.
   const nlohmann::json* solved_request = nullptr;
 };
 

@@ -248,6 +248,14 @@ std::optional<Softest> read_softest(const Field& result) {
   return found.ratio > 0 ? std::optional(found) : std::nullopt;  // ratio 0: a critical point
 }
 
+std::optional<FirstYield> read_first_yield(const Field& result) {
+  const std::optional<Field> yield = result.find("first_yield");
+  if (!yield) {
+    return std::nullopt;
+  }
+  return FirstYield{yield->at("load_factor").number(), yield->at("arc_length").number()};
+}
+
 std::vector<ContactEvent> read_contact_events(const Field& result) {
   std::vector<ContactEvent> events;
   const std::optional<Field> all = result.find("contact_events");

@@ -49,6 +49,12 @@ struct Softest {
   double ratio = 0;  ///< least stiffness there over that of the unloaded structure, more than 0
 };
 
+/// First state of the primary path in which an outer fibre reaches its strength.
+struct FirstYield {
+  double load_factor = 0;
+  double arc_length = 0;
+};
+
 struct ContactEvent {
   std::size_t branch = 0;
   Mark mark = Mark::closed;
@@ -108,6 +114,8 @@ using Mode = std::map<std::string, ModeShape>;
 /// Returns the softest point; nullopt where the stiffness has no minimum before it is zero, or without a
 /// path.
 [[nodiscard]] std::optional<Softest> read_softest(const Field& result);
+/// Returns the first yield of the primary path; nullopt where it has none.
+[[nodiscard]] std::optional<FirstYield> read_first_yield(const Field& result);
 [[nodiscard]] std::vector<ContactEvent> read_contact_events(const Field& result);
 /// Returns one state. @throws PlotError when the result has no state of that index
 [[nodiscard]] State read_state(const Field& result, std::size_t index);

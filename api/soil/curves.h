@@ -278,6 +278,14 @@ using AxialType = std::variant<ApiTzClay, ApiTzSand>;
 [[nodiscard]] Curve curve_of(const AxialType& type, const Place& place, double accuracy);
 /// @}
 
+/// @{
+/// Returns the ultimate resistance per length, Pmax, pc or pu, of the formulas above.
+[[nodiscard]] double ultimate_of(const SoftClayMatlock& clay, const Place& place);
+[[nodiscard]] double ultimate_of(const StiffClayFreeWater& clay, const Place& place);
+[[nodiscard]] double ultimate_of(const StiffClay& clay, const Place& place);
+[[nodiscard]] double ultimate_of(const ReeseSand& sand, const Place& place);
+/// @}
+
 /// Returns the force of a pile's tip over its displacement into the ground.
 [[nodiscard]] Curve tip_curve_of(const ApiQz& tip, const Place& place);
 

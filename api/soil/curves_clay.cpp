@@ -80,6 +80,20 @@ std::vector<Stretch> cyclic_softening(double pc, double y50, double A) {
 
 }  // namespace
 
+double ultimate_of(const SoftClayMatlock& clay, const Place& place) {
+  return clay_resistance(clay.Su, clay.Su, clay.J, place).ultimate;
+}
+
+double ultimate_of(const StiffClayFreeWater& clay, const Place& place) {
+  const double D = place.diameter;
+  return std::min((2.0 * clay.Su_mean + place.stress) * D + 2.83 * clay.Su_mean * place.depth,
+                  11.0 * clay.Su * D);
+}
+
+double ultimate_of(const StiffClay& clay, const Place& place) {
+  return clay_resistance(clay.Su, clay.Su_mean, clay.J, place).ultimate;
+}
+
 Curve curve_of(const SoftClayMatlock& clay, const Place& place, double accuracy) {
   static constexpr std::array<double, 2> kApiPoints[] = {{0.0, 0.0}, {0.1, 0.23}, {0.3, 0.33},
                                                          {1.0, 0.5}, {3.0, 0.72}, {8.0, 1.0}};
@@ -105,8 +119,7 @@ Curve curve_of(const SoftClayMatlock& clay, const Place& place, double accuracy)
 
 Curve curve_of(const StiffClayFreeWater& clay, const Place& place, double accuracy) {
   const double D = place.diameter;
-  const double pc = std::min((2.0 * clay.Su_mean + place.stress) * D + 2.83 * clay.Su_mean * place.depth,
-                             11.0 * clay.Su * D);
+  const double pc = ultimate_of(clay, place);
   const double y50 = clay.eps50 * D;
   const double depth = place.depth / D;
   if (!(pc > 0.0)) {
@@ -119,7 +132,7 @@ Curve curve_of(const StiffClayFreeWater& clay, const Place& place, double accura
 }
 
 Curve curve_of(const StiffClay& clay, const Place& place, double accuracy) {
-  const double ultimate = clay_resistance(clay.Su, clay.Su_mean, clay.J, place).ultimate;
+  const double ultimate = ultimate_of(clay, place);
   const double y50 = kStrainFactor * clay.eps50 * place.diameter;
   const double extent = 16.0 + (place.loading == Loading::cyclic ? 9.6 * std::log10(clay.cycles) : 0.0);
   std::vector<Stretch> stretches;

@@ -43,6 +43,13 @@ SandPair sand_pair(double relative_depth, Loading loading) {
   return {std::lerp(a.A, b.A, t), std::lerp(a.B, b.B, t)};
 }
 
+/// Returns ps of Reese's sand.
+double sand_strength(const ReeseSand& sand, const Place& place) {
+  const auto [C1, C2, C3] = sand_coefficients(sand.phi);
+  const double D = place.diameter;
+  return std::min(C1 * place.depth + C2 * D, C3 * D) * place.stress;
+}
+
 /// Returns Pd of liquefied sand for a diameter in metres.
 double diameter_factor(double D) {
   constexpr double kLeast = 0.3;
@@ -53,10 +60,13 @@ double diameter_factor(double D) {
 
 }  // namespace
 
+double ultimate_of(const ReeseSand& sand, const Place& place) {
+  return sand_pair(place.depth / place.diameter, place.loading).A * sand_strength(sand, place);
+}
+
 Curve curve_of(const ReeseSand& sand, const Place& place, double accuracy) {
   const double D = place.diameter;
-  const auto [C1, C2, C3] = sand_coefficients(sand.phi);
-  const double ps = std::min(C1 * place.depth + C2 * D, C3 * D) * place.stress;
+  const double ps = sand_strength(sand, place);
   if (!(ps > 0.0)) {
     return sampled({}, accuracy);
   }

@@ -43,6 +43,7 @@ struct Layer {
 struct Profile {
   std::vector<Layer> layers;  ///< each begins where the one above it ends
   Loading loading = Loading::static_;
+  Layering layering = Layering::none;
   /// Largest relative error of a reaction that interpolation by depth causes.
   double accuracy = 1e-2;
 };

@@ -21,6 +21,12 @@ inline constexpr double kLargestAccuracy = 0.1;
 
 enum class Loading { static_, cyclic };
 
+/// Depths at which the lateral curves of a layer are taken.
+enum class Layering {
+  none,       ///< each layer has its own depths
+  georgiadis  ///< equivalent depths, at which the soil alone has the resistance of the layers above
+};
+
 /// Sand of API RP 2GEO.
 struct Sand {
   double C1 = 0.0, C2 = 0.0, C3 = 0.0;  ///< dimensionless coefficients of the ultimate resistance

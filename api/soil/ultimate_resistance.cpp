@@ -126,6 +126,14 @@ std::vector<Piece> sand_resistance(const Sand& sand, double D, Loading loading, 
   });
 }
 
+double ultimate_of(const Sand& sand, const Place& place) {
+  const double D = place.diameter;
+  const double factor = place.loading == Loading::static_
+                            ? std::max(kDeepFactor, kSurfaceFactor - kFactorGradient * place.depth / D)
+                            : kDeepFactor;
+  return factor * std::min(sand.C1 * place.depth + sand.C2 * D, sand.C3 * D) * place.stress;
+}
+
 std::vector<Piece> clay_resistance(const SoftClay& clay, const Layer& layer, double D, const Contact& contact,
                                    double shortest) {
   const ClayMechanisms mechanisms = clay_mechanisms(clay, layer, D, contact.stress);

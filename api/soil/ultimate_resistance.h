@@ -73,6 +73,9 @@ struct Contact {
 [[nodiscard]] std::vector<Piece> sand_resistance(const Sand& sand, double D, Loading loading,
                                                  const Contact& contact, double shortest);
 
+/// Returns A Pmax of sand at one place.
+[[nodiscard]] double ultimate_of(const Sand& sand, const Place& place);
+
 /// @brief Returns Pmax of soft clay in consecutive pieces from contact.from to contact.to.
 ///
 /// Pmax = min((3 Su + s) D + J Su X, 9 Su D).

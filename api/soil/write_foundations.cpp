@@ -6,9 +6,12 @@
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "api/soil/curve_depths.h"
+#include "api/soil/equivalent_depth.h"
 #include "api/soil/faces.h"
 #include "api/soil/interpolation.h"
 #include "solver/check/check_place.h"
@@ -46,6 +49,26 @@ struct Kind {
 };
 constexpr Kind kLateral;
 
+/// Largest equivalent depth over the length of the pile, for which sums of depths keep their digits.
+constexpr double kLargestEquivalentDepth = 1e6;
+
+/// @brief A layer and the pile, by depths of one origin, and what is above the layer.
+///
+/// Curves of a layer with an equivalent depth have that origin at which its upper face is at that depth.
+struct Frame {
+  Layer layer;
+  Pile pile;
+  double stress = 0.0;    ///< vertical effective stress at the top of the layer
+  double strength = 0.0;  ///< integral of the strength over the clay above the layer
+  double clay = 0.0;      ///< thickness of that clay
+
+  /// Returns the part of the layer that holds the pile.
+  [[nodiscard]] Contact contact() const {
+    return {std::max({layer.from, pile.head_depth, pile.held_from}), std::min(layer.to, pile.tip_depth()),
+            Cubic({stress - layer.gamma * layer.from, layer.gamma, 0.0, 0.0})};
+  }
+};
+
 using CurveByDepth = std::function<Curve(double)>;
 /// A value that varies with depth.
 using ByDepth = std::function<double(double)>;
@@ -54,7 +77,11 @@ using ByDepth = std::function<double(double)>;
 class SoilWriter {
  public:
   SoilWriter(const Profile& profile, const Pile& pile, std::size_t& numbers, std::vector<Finding>& findings)
-      : profile_(profile), pile_(pile), numbers_by_depth_(numbers), findings_(findings) {}
+      : profile_(profile),
+        numbers_by_depth_(numbers),
+        findings_(findings),
+        frame_{{}, pile},
+        equivalent_depths_(pile.diameter, profile.loading, kLargestEquivalentDepth * pile.length) {}
 
   json foundations();
 
@@ -78,6 +105,12 @@ class SoilWriter {
   }
   [[nodiscard]] double mean_strength(double depth) const;
   void pass_layer();
+  void write_layer(std::optional<double> equivalent_depth);
+  [[nodiscard]] Frame moved_to(double depth) const;
+  void enter(Frame frame) {
+    frame_ = std::move(frame);
+    contact_ = frame_.contact();
+  }
 
   void add(double from, double to, json law, const Kind& kind, std::size_t curve = 0);
   json along(std::span<const double> depths, const ByDepth& value);
@@ -93,44 +126,41 @@ class SoilWriter {
         std::to_string(kMaxBreakPoints) + " break points, which are at least " +
         checks::text(2.0 * kMinRelativeChord) + " of the pile's length apart");
   }
-  [[nodiscard]] const Layer& layer() const { return profile_.layers[index_]; }
+  [[nodiscard]] const Layer& layer() const { return frame_.layer; }
+  [[nodiscard]] const Pile& pile() const { return frame_.pile; }
   /// Returns the part of the accuracy that is for the points of curves; interpolation by depth has the rest,
   /// since the number of depths falls faster with it than the number of points does.
   [[nodiscard]] double curve_accuracy() const {
     return std::max(0.25 * profile_.accuracy, std::min(kLeastAccuracy, 0.5 * profile_.accuracy));
   }
   /// Returns the factor of initial stiffnesses.
-  [[nodiscard]] double stiffening() const { return pile_.force_factor / pile_.displacement_factor; }
-  [[nodiscard]] double shortest() const { return 2.0 * kMinRelativeChord * pile_.length; }
+  [[nodiscard]] double stiffening() const { return pile().force_factor / pile().displacement_factor; }
+  [[nodiscard]] double shortest() const { return 2.0 * kMinRelativeChord * pile().length; }
 
   const Profile& profile_;
-  const Pile& pile_;
   std::size_t& numbers_by_depth_;  ///< written for the piles and layers up to the current one
   std::vector<Finding>& findings_;
-  std::size_t index_ = 0;     ///< current layer
+  Frame frame_;  ///< origin of depths of the current layer
+  EquivalentDepths equivalent_depths_;
   Contact contact_;           ///< part of the current layer that holds the pile
   bool is_too_fine_ = false;  ///< a layer needs too many depths
   bool is_finite_ = true;     ///< all numbers of the current layer are at most kMaxMagnitude
-  double stress_ = 0.0;       ///< vertical effective stress at the top of the current layer
-  double strength_ = 0.0;     ///< integral of the strength over the clay above the current layer
-  double clay_ = 0.0;         ///< thickness of that clay
   json foundations_ = json::array();
 };
 
 json SoilWriter::foundations() {
-  for (index_ = 0; index_ < profile_.layers.size(); pass_layer(), ++index_) {
+  for (const Layer& one : profile_.layers) {
     WorkLimit::poll();
-    contact_ = {std::max({layer().from, pile_.head_depth, pile_.held_from}),
-                std::min(layer().to, pile_.tip_depth()),
-                Cubic({stress_ - layer().gamma * layer().from, layer().gamma, 0.0, 0.0})};
+    frame_.layer = one;
+    contact_ = frame_.contact();
+    const auto equivalent_depth =
+        profile_.layering == Layering::georgiadis ? equivalent_depths_.next(one) : std::optional<double>();
     if (contact_.to - contact_.from < shortest()) {
-      continue;  // the layer does not hold the pile, but for rounding
+      pass_layer();  // the layer does not hold the pile, but for rounding
+      continue;
     }
     is_finite_ = true;
-    std::visit([this](const auto& soil) { write(soil); }, layer().soil);
-    if (layer().axial) {
-      write(*layer().axial);
-    }
+    write_layer(equivalent_depth);
     if (is_too_fine_) {
       break;  // such layers take the longest
     }
@@ -146,17 +176,55 @@ json SoilWriter::foundations() {
              " numbers by depth; a larger accuracy needs fewer");
       break;
     }
+    pass_layer();
   }
   return std::move(foundations_);
+}
+
+/// Writes the curves of the current layer, the lateral ones at its equivalent depths if it has any.
+void SoilWriter::write_layer(std::optional<double> equivalent_depth) {
+  const auto write_lateral = [this] { std::visit([this](const auto& soil) { write(soil); }, layer().soil); };
+  if (!equivalent_depth) {
+    write_lateral();
+  } else if (*equivalent_depth < kLargestEquivalentDepth * pile().length) {
+    Frame own = frame_;
+    enter(moved_to(*equivalent_depth));
+    write_lateral();
+    enter(std::move(own));
+  } else {
+    return report(
+        "the soil of this layer alone does not have the resistance of the layers above within " +
+        checks::text(kLargestEquivalentDepth) +
+        " lengths of the member: it has no equivalent depth; its strength at the upper face counts");
+  }
+  if (layer().axial) {
+    write(*layer().axial);
+  }
+}
+
+/// Returns the frame in which the current layer begins at an equivalent depth, with its own soil above.
+Frame SoilWriter::moved_to(double depth) const {
+  const double shift = depth - layer().from;
+  Frame moved = frame_;
+  moved.layer.from = depth;
+  moved.layer.to += shift;
+  moved.layer.top += shift;
+  for (double Pile::*one : {&Pile::head_depth, &Pile::embedded_depth, &Pile::held_from}) {
+    moved.pile.*one += shift;
+  }
+  moved.stress = layer().gamma * depth;
+  moved.strength = strength_at(layer(), 0.0).value_or(0.0) * depth;
+  moved.clay = depth;
+  return moved;
 }
 
 /// Adds the current layer to the sums over the layers above.
 void SoilWriter::pass_layer() {
   const double thickness = layer().to - layer().from;
-  stress_ += layer().gamma * thickness;
+  frame_.stress += layer().gamma * thickness;
   if (const auto middle = strength_at(layer(), 0.5)) {
-    strength_ += *middle * thickness;
-    clay_ += thickness;
+    frame_.strength += *middle * thickness;
+    frame_.clay += thickness;
   }
 }
 
@@ -165,18 +233,18 @@ double SoilWriter::mean_strength(double depth) const {
   const double fraction = in_layer(depth);
   const double part = depth - layer().from;
   const double strength = strength_at(layer(), 0.5 * fraction).value_or(0.0);
-  return clay_ + part > 0.0 ? (strength_ + strength * part) / (clay_ + part) : strength;
+  return frame_.clay + part > 0.0 ? (frame_.strength + strength * part) / (frame_.clay + part) : strength;
 }
 
 Place SoilWriter::place_at(double depth) const {
-  const double embedded = std::max(pile_.embedded_depth, pile_.tip_depth());
-  return {depth,           std::max(contact_.stress(depth), 0.0), pile_.diameter, embedded, layer().top,
+  const double embedded = std::max(pile().embedded_depth, pile().tip_depth());
+  return {depth,           std::max(contact_.stress(depth), 0.0), pile().diameter, embedded, layer().top,
           profile_.loading};
 }
 
 /// Writes p = A Pmax tanh(k X y / (A Pmax)).
 void SoilWriter::write(const Sand& sand) {
-  const auto resistance = sand_resistance(sand, pile_.diameter, profile_.loading, contact_, shortest());
+  const auto resistance = sand_resistance(sand, pile().diameter, profile_.loading, contact_, shortest());
   const auto depths = break_depths(resistance, shortest(), profile_.accuracy);
   if (!depths) {
     return report_too_fine();
@@ -185,14 +253,14 @@ void SoilWriter::write(const Sand& sand) {
       {{"type", "tanh"},
        {"stiffness",
         along(std::array{contact_.from, contact_.to}, [&](double X) { return stiffening() * (sand.k * X); })},
-       {"capacity", along(*depths, [&](double X) { return pile_.force_factor * value_at(resistance, X); })}},
+       {"capacity", along(*depths, [&](double X) { return pile().force_factor * value_at(resistance, X); })}},
       kLateral);
 }
 
 void SoilWriter::write(const Faces<LayerType>& faces) {
   const auto type_at = [&](double X) { return with_mean_strength(at(faces, in_layer(X)), mean_strength(X)); };
   write_tables([&](double X) { return curve_of(type_at(X), place_at(X), curve_accuracy()); },
-               {"", "", pile_.diameter, pile_.force_factor, pile_.displacement_factor});
+               {"", "", pile().diameter, pile().force_factor, pile().displacement_factor});
   if (std::holds_alternative<PisaClay>(faces.top)) {
     write_tables(
         [&](double X) {
@@ -212,7 +280,7 @@ void SoilWriter::write(const Axial& axial) {
         }
         return curve_of(type, place_at(X), curve_accuracy());
       },
-      {" axial", "tangent", pile_.diameter});
+      {" axial", "tangent", pile().diameter});
 }
 
 /// @brief Writes curves at depths X_0, X_1, ..., linear in X between.
@@ -221,7 +289,7 @@ void SoilWriter::write(const Axial& axial) {
 void SoilWriter::write_tables(const CurveByDepth& curve_at, const Kind& kind) {
   const double accuracy = profile_.accuracy - curve_accuracy();
   const auto curves = curves_by_depth(curve_at, contact_.from, contact_.to,
-                                      {accuracy, kind.limit, accuracy * pile_.diameter, shortest()});
+                                      {accuracy, kind.limit, accuracy * pile().diameter, shortest()});
   if (!curves) {
     return report_too_fine();
   }
@@ -249,7 +317,7 @@ void SoilWriter::write_tables(const CurveByDepth& curve_at, const Kind& kind) {
 }
 
 void SoilWriter::write(const SoftClay& clay) {
-  const double D = pile_.diameter;
+  const double D = pile().diameter;
   const double y50 = kStrainFactor * clay.eps50 * D;
   if (profile_.loading == Loading::static_) {
     return write_clay(clay_resistance(clay, layer(), D, contact_, shortest()), 1.0, y50);
@@ -321,18 +389,18 @@ void SoilWriter::write_power(std::span<const double> depths, const ByDepth& resi
   };
   add(depths.front(), depths.back(),
       {{"type", "power"},
-       {"capacity", times_resistance(pile_.force_factor * capacity)},
-       {"reference", checked(pile_.displacement_factor * (clay_displacement(capacity) * y50))},
+       {"capacity", times_resistance(pile().force_factor * capacity)},
+       {"reference", checked(pile().displacement_factor * (clay_displacement(capacity) * y50))},
        {"exponent", kExponent},
        {"stiffness", times_resistance(stiffening() * (clay_stiffness() / y50))}},
       kLateral, curve);
 }
 
 void SoilWriter::add(double from, double to, json law, const Kind& kind, std::size_t curve) {
-  std::array range{pile_.fraction(from), pile_.fraction(to)};
+  std::array range{pile().fraction(from), pile().fraction(to)};
   std::sort(range.begin(), range.end());
-  json foundation{{"id", foundation_id(pile_, layer(), kind.name, curve)},
-                  {"member", pile_.member},
+  json foundation{{"id", foundation_id(pile(), layer(), kind.name, curve)},
+                  {"member", pile().member},
                   {"range", range},
                   {"law", std::move(law)}};
   if (*kind.component != '\0') {
@@ -346,7 +414,7 @@ json SoilWriter::along(std::span<const double> depths, const ByDepth& value) {
   std::vector<std::array<double, 2>> pairs;
   numbers_by_depth_ += depths.size();
   for (const double depth : depths) {
-    pairs.push_back({pile_.fraction(depth), checked(value(depth))});
+    pairs.push_back({pile().fraction(depth), checked(value(depth))});
   }
   std::sort(pairs.begin(), pairs.end());
   return {{"along", pairs}};

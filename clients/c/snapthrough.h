@@ -154,8 +154,8 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_sweep(const char* document,
  *                       command line or the service
  * @param length         bytes of the document
  * @param choices        null, or UTF-8 JSON, an object with any of: "kind" ("path", "shape", "sections", "mode",
- *                       "model", "law", "frequencies", "stiffness", "sweep", "heatmap"), "width", "height"
- *                       (pixels), "dark", "state", "mode", "branch" (indices from 0), "monitor",
+ *                       "model", "law", "laws", "frequencies", "stiffness", "sweep", "heatmap"), "width",
+ *                       "height" (pixels), "dark", "state", "mode", "branch" (indices from 0), "monitor",
  *                       "over_arc_length", "magnify", "law" (id of a spring or foundation), "output" (JSON
  *                       Pointer), "x", "by" (names of parameters), "where" ({name: value}), "solved_request"
  *                       (the request, so that supports, ground, loads and laws can be drawn)

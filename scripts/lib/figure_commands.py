@@ -12,7 +12,8 @@ FENCE = re.compile(r"^```(\w*) ?(\S*)\n(.*?)^```", re.MULTILINE | re.DOTALL)  # 
 # document: {file that its commands draw: picture under docs}
 DRAWN = {"docs/tutorial.md": {"mode.svg": "docs/tutorial_mode.svg", "chart.svg": "docs/tutorial_chart.svg"},
          "docs/howto/plot-results.md": {"pipe_path.svg": "docs/howto/plots/pipe_path.svg",
-                                        "pipe_shape.svg": "docs/howto/plots/pipe_shape.svg"},
+                                        "pipe_shape.svg": "docs/howto/plots/pipe_shape.svg",
+                                        "pile_laws.svg": "docs/howto/plots/pile_laws.svg"},
          "docs/howto/monopile.md": {"monopile_moment.svg": "docs/howto/monopile_moment.svg"}}
 
 

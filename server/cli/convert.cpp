@@ -8,6 +8,7 @@
 
 #include "api/convert/convert.h"
 #include "server/cli/input.h"
+#include "solver/model/limits.h"
 
 namespace snapthrough::server::cli {
 
@@ -20,6 +21,7 @@ struct ConvertArguments {
   std::string sections;
   std::vector<std::string> layers;
   std::optional<double> tolerance;
+  bool join_tees = false;
 };
 
 namespace {
@@ -35,8 +37,11 @@ std::string mistake_in(const ConvertArguments& arguments) {
   if (!is_csv && has_table) {
     return "--nodes, --members and --sections are for csv";
   }
-  if (arguments.form != "dxf" && (!arguments.layers.empty() || arguments.tolerance)) {
-    return "--layer and --tolerance are for dxf";
+  if (arguments.form != "dxf" && (!arguments.layers.empty() || arguments.tolerance || arguments.join_tees)) {
+    return "--layer, --tolerance and --join-tees are for dxf";
+  }
+  if (arguments.tolerance && !(*arguments.tolerance > 0.0 && *arguments.tolerance <= kMaxMagnitude)) {
+    return "--tolerance must be a number above 0, at most 1e150";
   }
   const int inputs = (arguments.nodes == "-" ? 1 : 0) + (arguments.members == "-" ? 1 : 0) +
                      (arguments.sections == "-" ? 1 : 0);
@@ -74,8 +79,9 @@ std::optional<api::Conversion> convert(const ConvertArguments& arguments, const 
   if (!text) {
     return std::nullopt;
   }
-  return arguments.form == "soil" ? api::convert_soil(*text)
-                                  : api::convert_dxf(*text, {arguments.layers, arguments.tolerance});
+  return arguments.form == "soil"
+             ? api::convert_soil(*text)
+             : api::convert_dxf(*text, {arguments.layers, arguments.tolerance, arguments.join_tees});
 }
 
 }  // namespace
@@ -94,10 +100,10 @@ std::shared_ptr<ConvertArguments> add_convert_command(CLI::App& app) {
   command->add_option("--layer", arguments->layers, "dxf: read this layer, not all layers; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command
-      ->add_option("--tolerance", arguments->tolerance,
-                   "dxf: distance within which end points are one node [1e-6 of the drawing's size]")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--tolerance", arguments->tolerance,
+                      "dxf: distance within which end points are one node [1e-6 of the drawing's size]");
+  command->add_flag("--join-tees", arguments->join_tees,
+                    "dxf: divide a line or arc where an end of another lies on it within the tolerance");
   return arguments;
 }
 
@@ -109,6 +115,9 @@ int convert_command(const ConvertArguments& arguments, const Streams& streams) {
   const std::optional<api::Conversion> conversion = convert(arguments, streams);
   if (!conversion) {
     return kOther;
+  }
+  for (const Warning& warning : conversion->warnings) {
+    streams.err << "Warning: " << warning.detail << " [" << warning.code << "]\n";
   }
   print_findings(conversion->findings, streams);
   if (conversion->document == nullptr) {

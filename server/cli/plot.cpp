@@ -55,7 +55,8 @@ void add_choices(CLI::App& command, PlotArguments& arguments) {
   command.add_flag("--points", figure.points, "path: mark the points at which an equilibrium was solved");
   command.add_option("--magnify", figure.magnify, "shape: factor of displacements; mode: factor of its size")
       ->check(CLI::PositiveNumber);
-  command.add_option("--law", figure.law, "law: id of the spring or foundation [first with a law]");
+  command.add_option("--law", figure.law,
+                     "law, laws: id of the spring or foundation [law: first with a law; laws: all]");
   command.add_option("--output", figure.output,
                      "sweep, heatmap: JSON Pointer of the output, as in the table's columns");
   command.add_option("--x", figure.x, "sweep, heatmap: parameter on the horizontal axis");
@@ -73,7 +74,7 @@ void add_looks(CLI::App& command, PlotArguments& arguments) {
   command.add_option("--width", arguments.figure.width, "Width in pixels [720]")->check(sizes);
   command
       .add_option("--height", arguments.figure.height,
-                  "Height in pixels [480, sections 600; less for flat structures]")
+                  "Height in pixels [480, sections 600; less for flat structures, more for many laws]")
       ->check(sizes);
   command.add_option("--scale", arguments.scale, "PNG: its pixels for each of these [2]")
       ->check(CLI::Range(0.1, 10.0));

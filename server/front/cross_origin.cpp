@@ -15,7 +15,7 @@ constexpr const char* kRequestHeaders =
 /// Response headers that pages may read, in addition to those that browsers always allow.
 constexpr const char* kResponseHeaders =
     "Allow, Content-Location, ETag, Link, Location, Preference-Applied, Retry-After, WWW-Authenticate, "
-    "X-Cache, X-Complete, X-Request-Id";
+    "X-Cache, X-Complete, X-Request-Id, X-Warnings";
 /// Seconds for which browsers may cache a preflight response (Chromium: two hours at most).
 constexpr const char* kMaxAge = "7200";
 

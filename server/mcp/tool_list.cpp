@@ -7,6 +7,7 @@
 #include "api/openapi/schemas.h"
 #include "api/plot/plot_request.h"
 #include "server/mcp/tools.h"
+#include "solver/model/limits.h"
 
 namespace snapthrough::server::mcp {
 namespace {
@@ -66,7 +67,7 @@ json plot_schema() {
        {"arc_length", flag_field("path: arc length on the horizontal axis")},
        {"points", flag_field("path: mark the points at which an equilibrium was solved")},
        {"magnify", {{"type", "number"}, {"exclusiveMinimum", 0}, {"description", "Factor of displacements"}}},
-       {"law", text_field("law: id of the spring or foundation; default: the first with a law")},
+       {"law", text_field("law, laws: id of a spring or foundation; default: the first with a law, or all")},
        {"output", text_field("sweep, heatmap: column of the table")},
        {"x", text_field("sweep, heatmap: parameter on the horizontal axis")},
        {"by", text_field("sweep: parameter with a curve for each value; heatmap: vertical axis")},
@@ -93,7 +94,10 @@ json convert_schema() {
        {"tolerance",
         {{"type", "number"},
          {"exclusiveMinimum", 0},
-         {"description", "drawing: distance within which ends join"}}}},
+         {"maximum", kMaxMagnitude},
+         {"description", "drawing: distance within which ends join"}}},
+       {"join_tees",
+        flag_field("drawing: divide a line or arc where an end of another lies on it within the tolerance")}},
       json::array());
   schema["$defs"] = soil.at("$defs");
   schema["$defs"]["SoilDocument"] = soil;
@@ -148,7 +152,8 @@ json tool_list() {
       tool("convert", "Make parts of a model",
            "Makes the foundations of a pile from soil layers (API RP 2GEO), or nodes, members and sections "
            "from tables or "
-           "a drawing, for the model of solve.",
+           "a drawing, for the model of solve. A second text has `warnings` of a drawing: what is left out, "
+           "what is joined at a distance, and what only looks joined.",
            convert_schema())};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "api/convert/convert.h"
 #include "api/names.h"
@@ -12,6 +13,8 @@
 #include "api/plot/plot_error.h"
 #include "api/plot/plot_request.h"
 #include "server/mcp/tools.h"
+#include "server/resources/conversion_warnings.h"
+#include "solver/model/limits.h"
 
 namespace snapthrough::server::mcp {
 namespace {
@@ -131,8 +134,22 @@ std::string base64_of(const std::string& bytes) {
   return text;
 }
 
-json parts_or_refusal(const api::Conversion& conversion) {
-  return conversion.document == nullptr ? refused(conversion.findings) : told(*conversion.document);
+/// Returns the parts, which a model takes as they are, and the warnings in a text of their own.
+json parts_or_refusal(api::Conversion conversion) {
+  if (conversion.document == nullptr) {
+    for (Finding& finding : conversion.findings) {
+      if (finding.pointer == "--layer") {  // the command's option
+        finding.pointer = "/layers";
+      }
+    }
+    return refused(conversion.findings);
+  }
+  json result = told(*conversion.document);
+  if (!conversion.warnings.empty()) {
+    const json warnings = {{"warnings", http::conversion_warnings(conversion.warnings)}};
+    result["content"].push_back({{"type", "text"}, {"text", warnings.dump()}});
+  }
+  return result;
 }
 
 api::Conversion convert_tables(Reader& in) {
@@ -146,7 +163,8 @@ api::Conversion convert_tables(Reader& in) {
 
 api::Conversion convert_drawing(const json& arguments, Reader& in) {
   api::DxfOptions options;
-  options.tolerance = in.number("tolerance", 1e-300, 1e300);
+  options.tolerance = in.number("tolerance", 1e-300, kMaxMagnitude);
+  options.join_tees = in.flag("join_tees");
   const json layers = arguments.value("layers", json::array());
   const bool texts = layers.is_array() && std::all_of(layers.begin(), layers.end(),
                                                       [](const json& one) { return one.is_string(); });
@@ -233,8 +251,8 @@ json Tools::plot(const json& arguments, Dialogue& /*dialogue*/) {
 
 json Tools::convert(const json& arguments, Dialogue& /*dialogue*/) {
   Reader in(arguments);
-  in.findings =
-      unknown_members(arguments, {"soil", "nodes", "members", "sections", "drawing", "layers", "tolerance"});
+  in.findings = unknown_members(
+      arguments, {"soil", "nodes", "members", "sections", "drawing", "layers", "tolerance", "join_tees"});
   const bool tables = arguments.contains("nodes") || arguments.contains("members");
   if ((arguments.contains("soil") ? 1 : 0) + (tables ? 1 : 0) + (arguments.contains("drawing") ? 1 : 0) !=
       1) {
@@ -243,11 +261,10 @@ json Tools::convert(const json& arguments, Dialogue& /*dialogue*/) {
   if (!in.findings.empty()) {
     return refused(in.findings);
   }
-  const api::Conversion conversion = arguments.contains("soil")
-                                         ? api::convert_soil_document(arguments.at("soil"))
-                                     : tables ? convert_tables(in)
-                                              : convert_drawing(arguments, in);
-  return in.findings.empty() ? parts_or_refusal(conversion) : refused(in.findings);
+  api::Conversion conversion = arguments.contains("soil") ? api::convert_soil_document(arguments.at("soil"))
+                               : tables                   ? convert_tables(in)
+                                                          : convert_drawing(arguments, in);
+  return in.findings.empty() ? parts_or_refusal(std::move(conversion)) : refused(in.findings);
 }
 
 }  // namespace snapthrough::server::mcp

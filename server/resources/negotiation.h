@@ -29,6 +29,12 @@ template <class Number>
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
+/// Reads `true` or `false` into `flag`; returns whether the value is one of them.
+[[nodiscard]] inline bool read_flag(std::string_view value, bool& flag) {
+  flag = value == "true";
+  return flag || value == "false";
+}
+
 /// A query parameter that sets a part of `Query`.
 template <class Query>
 struct QueryParameter {

@@ -11,11 +11,6 @@ namespace {
 
 using api::PlotRequest;
 
-bool read_flag(const std::string& value, bool& flag) {
-  flag = value == "true";
-  return value == "true" || value == "false";
-}
-
 bool read_size(const std::string& value, std::optional<double>& size) {
   size = whole_number<double>(value);
   return size && *size >= api::kLeastPlotSize && *size <= api::kLargestPlotSize;

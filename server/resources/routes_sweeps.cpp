@@ -38,8 +38,7 @@ bool read_table_parameter(const std::string& name, const std::string& value, Tab
     return state == JobState::failed || state == JobState::successful;
   }
   if (name == "links") {
-    table.links = value == "true";
-    return value == "true" || value == "false";
+    return read_flag(value, table.links);
   }
   return name == "format";  // read by wanted_table_form()
 }

@@ -14,6 +14,7 @@
 #include "api/plot/plot_error.h"
 #include "api/plot/plot_request.h"
 #include "server/jobs/memory.h"
+#include "server/resources/conversion_warnings.h"
 #include "server/resources/documents.h"
 #include "server/resources/form_data.h"
 #include "server/resources/negotiation.h"
@@ -73,22 +74,33 @@ Response invalid_file(const Request& request, std::vector<Finding> findings) {
                           request);
 }
 
+constexpr QueryParameter<api::DxfOptions> kDrawingParameters[] = {
+    {"layer",
+     [](const std::string& value, api::DxfOptions& options) {
+       options.layers.push_back(value);
+       return true;
+     },
+     true},
+    {"tolerance",
+     [](const std::string& value, api::DxfOptions& options) {
+       options.tolerance = whole_number<double>(value);
+       return options.tolerance && *options.tolerance > 0.0 && *options.tolerance <= kMaxMagnitude;
+     }},
+    {"join_tees",
+     [](const std::string& value, api::DxfOptions& options) { return read_flag(value, options.join_tees); }},
+};
+
 /// Reads the query parameters of a drawing, which no other file has. Returns a problem about the first one
 /// that is unknown, repeated or invalid.
 std::optional<Response> read_drawing_query(const Request& request, bool drawing, api::DxfOptions& options) {
-  for (const auto& [name, value] : request.query) {
-    bool valid = drawing && name == "layer";
-    if (valid) {
-      options.layers.push_back(value);
-    } else if (drawing && name == "tolerance" && !options.tolerance) {
-      options.tolerance = whole_number<double>(value);
-      valid = options.tolerance && *options.tolerance > 0.0 && *options.tolerance <= kMaxMagnitude;
-    }
-    if (!valid) {
-      return wrong_parameter(request,
-                             "layer (may be repeated) and tolerance (above 0, once), both for a drawing only",
-                             name, value);
-    }
+  const auto wrong = drawing                 ? read_query(request, kDrawingParameters, options)
+                     : request.query.empty() ? std::nullopt
+                                             : std::optional(request.query.front());
+  if (wrong) {
+    return wrong_parameter(request,
+                           "layer (may be repeated), tolerance (above 0, at most 1e150) and join_tees (true "
+                           "or false), each of these two once, all for a drawing only",
+                           wrong->first, wrong->second);
   }
   return std::nullopt;
 }
@@ -217,7 +229,14 @@ Response Routes::convert(const Request& request, const std::string& /*id*/) {
                                    "the parts of the model take " + std::to_string(parts.size()) +
                                        " bytes, more than a request may have (body_bytes of /v1/limits)"}});
   }
-  return json_response(200, std::move(parts));
+  Response response = json_response(200, std::move(parts));
+  if (!outcome.conversion.warnings.empty()) {
+    // The body holds parts of a model and nothing else, which a model takes as they are.
+    constexpr bool kAscii = true;  // a header has no other characters
+    response.headers.emplace_back("X-Warnings",
+                                  conversion_warnings(outcome.conversion.warnings).dump(-1, ' ', kAscii));
+  }
+  return response;
 }
 
 Response Routes::plot(const Request& request, const std::string& /*id*/) {

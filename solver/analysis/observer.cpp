@@ -1,5 +1,6 @@
 #include "solver/analysis/observer.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -10,8 +11,31 @@
 
 namespace snapthrough {
 
+void Observer::note_stress(const Eigen::VectorXd& y, double lambda, int branch) {
+  if (!has_strength_) return;
+  const auto here = largest_utilisation(structure_, y, lambda);
+  if (!here || (stressed_ && std::abs(here->place.value) <= std::abs(stressed_->place.value))) return;
+  stressed_ = here;
+  stressed_branch_ = branch;
+  stressed_load_ = lambda / structure_.scales.load;
+}
+
+/// Says that answers beyond first yield are those of an elastic structure.
+void Observer::warn_of_stress(Result& result) const {
+  if (!stressed_ || std::abs(stressed_->place.value) <= 1.0) return;
+  std::string text = "the stress reaches " + rounded(std::abs(stressed_->place.value)) +
+                     " of the strength in member \"" + stressed_->member +
+                     "\" at s = " + rounded(stressed_->place.s) + ", load factor " + number(stressed_load_) +
+                     " on branch " + std::to_string(stressed_branch_);
+  if (result.first_yield)
+    text += "; it first reaches the strength at load factor " + number(result.first_yield->load_factor);
+  result.warnings.push_back(
+      {"beyond_yield", text + ": beyond, the answers are those of an elastic structure"});
+}
+
 void Observer::note(const Eigen::VectorXd& y, double lambda, int branch) {
   peaks_.note(y, lambda / structure_.scales.load);
+  note_stress(y, lambda, branch);
   if (!gauge_.raise(y, largest_)) return;
   strained_branch_ = branch;
   strained_load_ = lambda / structure_.scales.load;
@@ -35,6 +59,7 @@ void Observer::finish(Result& result) {
          "supports or joints went back from beyond the peak of their law: " + peaks_.text() +
              "; a law is elastic, so that they regain along its curve what they had lost"});
   }
+  warn_of_stress(result);
   if (largest_.strain <= StrainLimits::small) return;
   result.warnings.push_back(
       {"large_strain", "the strain reaches " + rounded(largest_.strain) + " in member \"" + largest_.member +

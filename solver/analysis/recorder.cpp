@@ -196,6 +196,7 @@ void Recorder::finish(bool last) {
   if (!result_.not_reached.empty())
     result_.summary.message += "; " + std::to_string(result_.not_reached.size()) + " of " +
                                std::to_string(reached_.size()) + " load factors were not reached";
+  yield_.finish(analysis_, last, result_);
   observer_.finish(result_);
 }
 
@@ -237,7 +238,9 @@ void Recorder::on_critical(const CriticalEvent& event) {
 }
 
 void Recorder::on_step(const PathPoint& from, const PathPoint& to) {
-  if (branch_ == 0) softest_.add_step(from, to);
+  if (branch_ != 0) return;
+  softest_.add_step(from, to);
+  yield_.add_step(from, to);
 }
 
 }  // namespace snapthrough

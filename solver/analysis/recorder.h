@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/accuracy/static_states.h"
+#include "solver/analysis/first_yield.h"
 #include "solver/analysis/frequency_probe.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/path_points.h"
@@ -38,6 +39,7 @@ class Recorder final : public PathObserver {
         zones_(structure),
         neutral_(structure, result.neutral_motion),
         observer_(analysis, structure),
+        yield_(structure, solver),
         reached_(analysis.output.at_load_factors.size(), 0) {
     if (analysis.output.frequencies > 0 && analysis.traits().reports_path)
       probe_.emplace(structure, analysis);
@@ -89,6 +91,7 @@ class Recorder final : public PathObserver {
   NeutralMotionLog neutral_;
   std::optional<FrequencyProbe> probe_;  ///< empty: no frequencies are requested
   Observer observer_;
+  FirstYieldSearch yield_;                 ///< on the primary path
   std::string refused_;                    ///< sentences on states that are no equilibrium
   std::vector<StaticState> asked_states_;  ///< at asked load factors; rows: indices in the result
   std::vector<char> reached_;              ///< requested load factors whose states were recorded

@@ -245,6 +245,19 @@ void check_bending(const Place& section, const Section& data) {
   require_between(place / "exponent", law.exponent, 2.0, kMaxBendingExponent);
 }
 
+/// Checks the strength of a section, which needs stresses that are linear in the section forces.
+void check_strength(const Place& section, const Section& data) {
+  const Place place = section / "strength";
+  if (data.bending) {
+    place.report("not_supported", "a section with a bending law has no strength: its law says how it yields");
+    return;
+  }
+  // a section by material has products of numbers that were checked
+  check_number(place / "axial_force", data.strength->axial_force, require_positive);
+  check_number(place / "bending_moment", data.strength->bending_moment, require_positive);
+  require_positive(place / "compression", data.strength->compression);
+}
+
 void check_sections(const Place& model, const Model& data, Names& names) {
   const Place sections = model / "sections";
   require_count(sections, data.sections.size(), kMaxSections);
@@ -259,6 +272,7 @@ void check_sections(const Place& model, const Model& data, Names& names) {
     const bool has_table = section.bending && section.bending->type == BendingLaw::Type::table;
     if (!has_table) check_stiffness(place / "EI", section.EI);
     if (section.bending) check_bending(place, section);
+    if (section.strength) check_strength(place, section);
     if (section.GA) {
       check_number(place / "GA", *section.GA, require_positive);
     }

@@ -69,6 +69,15 @@ struct BendingLaw {
   bool operator==(const BendingLaw&) const = default;
 };
 
+/// @brief Elastic strength of a section: its outer fibres, which are as far from its axis on both sides,
+/// reach the strength of the material in tension under `axial_force` alone, and under `bending_moment` alone.
+struct Strength {
+  AlongMember axial_force;     ///< strength times area, > 0
+  AlongMember bending_moment;  ///< strength times section modulus, > 0
+  double compression = 1.0;    ///< strength in compression over that in tension, > 0
+  bool operator==(const Strength&) const = default;
+};
+
 /// Elastic section, which may taper: fractions of its numbers are those of each member that has the section.
 /// No GA means unshearable (the limit GA -> infinity is taken exactly).
 struct Section {
@@ -81,6 +90,7 @@ struct Section {
   std::optional<AlongMember> rotary_inertia = {};
   std::optional<double> expansion = {};    ///< thermal strain per degree; needed by temperature loads
   std::optional<BendingLaw> bending = {};  ///< empty: the curvature is M / EI
+  std::optional<Strength> strength = {};   ///< empty: stresses are not compared with a strength
   bool operator==(const Section&) const = default;
 };
 
@@ -213,6 +223,7 @@ struct Spring {
   /// Index of the member that the spring stands for: see with_rods_as_springs(). `direction` is then the
   /// vector from `at` to `to`, and turns with both.
   std::optional<std::size_t> rod = std::nullopt;
+  std::optional<double> strength = std::nullopt;  ///< axial force that yields a rod at its weakest place
   std::optional<Pretension> pretension = std::nullopt;  ///< only with `to`, along the line between the nodes
   bool operator==(const Spring&) const = default;
 };

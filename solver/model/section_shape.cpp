@@ -94,7 +94,7 @@ double thin_walled_shear_area(const FlangedSection& section) {
 
 SectionGeometry rectangle(double width, double depth) {
   const double area = width * depth;
-  return {area, area * depth * depth / 12.0, 5.0 / 6.0 * area};
+  return {area, area * depth * depth / 12.0, 5.0 / 6.0 * area, depth};
 }
 
 SectionGeometry tube(double diameter, double thickness) {
@@ -104,7 +104,7 @@ SectionGeometry tube(double diameter, double thickness) {
   const double m = inner / diameter;
   const double sum = (1.0 + m * m) * (1.0 + m * m);
   return {area, area * (diameter * diameter + inner * inner) / 16.0,
-          area * 6.0 * sum / (7.0 * sum + 20.0 * m * m)};
+          area * 6.0 * sum / (7.0 * sum + 20.0 * m * m), diameter};
 }
 
 SectionGeometry flanged_section(const FlangedSection& section) {
@@ -128,7 +128,7 @@ SectionGeometry flanged_section(const FlangedSection& section) {
                                           {tip, top, 0.0},
                                           {0.0, top, 0.0}}};
   const Enclosed part = enclosed(outline);
-  return {copies * part.area, copies * part.second_moment, thin_walled_shear_area(section)};
+  return {copies * part.area, copies * part.second_moment, thin_walled_shear_area(section), section.depth};
 }
 
 FlangedSection scaled(const FlangedSection& section, double factor) {

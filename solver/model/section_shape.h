@@ -10,6 +10,7 @@ struct SectionGeometry {
   double second_moment = 0.0;  ///< about the centroidal axis across the plane
   /// Area times Cowper's coefficient for Poisson's ratio 0 (J. Appl. Mech. 33, 1966): 5/6 for a rectangle.
   double shear_area = 0.0;
+  double depth = 0.0;  ///< in the plane of bending; the centroidal axis is in the middle
 };
 
 /// Section of a web and two equal flanges, bent about its strong axis: an I section, or a channel that bends

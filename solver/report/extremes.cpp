@@ -1,5 +1,6 @@
 #include "solver/report/extremes.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace snapthrough {
@@ -20,8 +21,14 @@ MemberExtremes first_state(const MemberState& member, int branch, double load_fa
     return ExtremeRange{extreme(of.min, branch, load_factor), extreme(of.max, branch, load_factor)};
   };
   const MemberPeaks& peaks = member.extremes;
-  return {member.id, range(peaks.axial_force), range(peaks.shear_force), range(peaks.bending_moment),
-          extreme(peaks.displacement, branch, load_factor)};
+  MemberExtremes out{member.id,
+                     range(peaks.axial_force),
+                     range(peaks.shear_force),
+                     range(peaks.bending_moment),
+                     extreme(peaks.displacement, branch, load_factor),
+                     {}};
+  if (peaks.utilisation) out.utilisation = {*peaks.utilisation, branch, load_factor};
+  return out;
 }
 
 }  // namespace
@@ -40,6 +47,8 @@ void widen_extremes(const std::vector<MemberState>& members, int branch, double 
     widen(peaks.bending_moment, branch, load_factor, out.bending_moment);
     if (peaks.displacement.value > out.displacement.value)
       out.displacement = extreme(peaks.displacement, branch, load_factor);
+    if (peaks.utilisation && std::abs(peaks.utilisation->value) > std::abs(out.utilisation->place.value))
+      out.utilisation = {*peaks.utilisation, branch, load_factor};
   }
 }
 

@@ -22,10 +22,22 @@ void set_peaks(MemberState& rod) {
   rod.extremes = {{force, force},
                   {none, none},
                   {none, none},
-                  first >= last ? Peak{first, rod.s.front()} : Peak{last, rod.s.back()}};
+                  first >= last ? Peak{first, rod.s.front()} : Peak{last, rod.s.back()},
+                  {}};
+}
+
+/// Axial force of a rod, tension positive, in the model's units.
+double axial_force_of(const Structure& structure, const NodeSpring& rod, const VectorXd& y) {
+  const double w = rod.motion(y, structure.geometry == Geometry::linear).w;
+  return -in_users_sense(rod.sense, structure.scales.force * rod.law.reaction(w)) + 0.0;
 }
 
 }  // namespace
+
+Utilisation rod_utilisation(const Structure& structure, std::size_t spring, const VectorXd& y) {
+  const double force = axial_force_of(structure, rod_of(structure, spring), y);
+  return {force / *structure.model->springs[spring].strength, 0.0, Fibre::left};
+}
 
 MemberMode rod_mode(const Structure& structure, std::size_t spring, const VectorXd& mode, int points) {
   const ResolvedModel& model = *structure.model;
@@ -51,7 +63,7 @@ MemberState rod_state(const Structure& structure, std::size_t spring, const Vect
   const NodeSpring rod = rod_of(structure, spring);
   const bool is_linear = structure.geometry == Geometry::linear;
   const SpringMotion motion = rod.motion(y, is_linear);
-  const double force = -in_users_sense(rod.sense, structure.scales.force * rod.law.reaction(motion.w));
+  const double force = axial_force_of(structure, rod, y);
   const Vector3d turned = rod.sense * motion.gradient;
   const Vector3d along = rod.sense * rod.direction();
   const Node& start = model.nodes[model.springs[spring].at.node];
@@ -73,10 +85,16 @@ MemberState rod_state(const Structure& structure, std::size_t spring, const Vect
     out.x.push_back(out.x0[i] + out.u[i]);
     out.y.push_back(out.y0[i] + out.v[i]);
   }
-  out.axial_force.assign(out.s.size(), force + 0.0);
+  out.axial_force.assign(out.s.size(), force);
   out.shear_force.assign(out.s.size(), 0.0);
   out.bending_moment.assign(out.s.size(), 0.0);
   set_peaks(out);
+  if (model.springs[spring].strength) {
+    const Utilisation utilisation = rod_utilisation(structure, spring, y);
+    out.utilisation_left.assign(out.s.size(), utilisation.value);
+    out.utilisation_right = out.utilisation_left;
+    out.extremes.utilisation = utilisation;
+  }
   return out;
 }
 

@@ -17,6 +17,11 @@ namespace snapthrough {
 [[nodiscard]] MemberState rod_state(const Structure& structure, std::size_t spring, const Eigen::VectorXd& y,
                                     int points);
 
+/// @brief Axial force of a rod over its strength. @pre the rod has a strength
+/// @param spring, y as for rod_state()
+[[nodiscard]] Utilisation rod_utilisation(const Structure& structure, std::size_t spring,
+                                          const Eigen::VectorXd& y);
+
 /// @brief Displacements of a rod in a vector of unknowns, as for mode_displacements().
 [[nodiscard]] MemberMode rod_mode(const Structure& structure, std::size_t spring, const Eigen::VectorXd& mode,
                                   int points);

@@ -9,106 +9,28 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/discrete/layer_state.h"
-#include "solver/geometry/stress_free_axis.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/contact.h"
+#include "solver/report/member_reader.h"
 #include "solver/report/peaks.h"
 #include "solver/report/place_stiffness.h"
 #include "solver/report/rod_state.h"
-#include "solver/report/section_force.h"
 #include "solver/report/support_state.h"
 #include "solver/resolve/rods.h"
+#include "solver/support/capacity.h"
 
 namespace snapthrough {
 namespace {
 
-/// Reads displacements and section forces of one member in a state.
-class MemberReader {
- public:
-  MemberReader(const Structure& structure, const Eigen::VectorXd& y, double lambda,
-               const std::vector<LayerState>& layers, int member)
-      : structure_(structure), axis_(*structure.stress_free[member]), member_(member) {
-    const int first = structure.mesh.first[static_cast<std::size_t>(member)];
-    const int end = structure.mesh.first[static_cast<std::size_t>(member) + 1];
-    for (int e = first; e < end; ++e)
-      elements_.push_back({ElementReader(structure, y, e), SectionForces(structure, y, lambda, layers, e)});
+/// Adds stresses over strength to a member's places and extremes, where its section has a strength.
+void add_utilisations(const MemberReader& reader, MemberState& member) {
+  if (reader.strength() == nullptr) return;
+  for (const double s : member.s) {
+    const auto [left, right] = reader.utilisations(reader.place(s));
+    member.utilisation_left.push_back(left);
+    member.utilisation_right.push_back(right);
   }
-
-  /// Values at a place, in the model's units.
-  struct Values {
-    std::array<double, 3> displacement;  ///< x, y, rotation
-    double axial_force, shear_force, bending_moment;
-  };
-  [[nodiscard]] Values at(const MeshPlace& place) const {
-    const Element& element = elements_[index_of(place.element)];
-    const double L = structure_.scales.length;
-    const double F = structure_.scales.force;
-    const auto u = element.displacements.displacement(place.xi);
-    const auto n = element.forces.at(place.xi);
-    // small displacements: equilibrium of the undeformed shape
-    const double angle =
-        undeformed(s_of(place)).angle + (structure_.geometry == Geometry::linear ? 0.0 : u[2]);
-    return {{L * u[0], L * u[1], u[2]},
-            F * (n[0] * std::cos(angle) + n[1] * std::sin(angle)),
-            F * (-n[0] * std::sin(angle) + n[1] * std::cos(angle)),
-            F * L * n[2]};
-  }
-  [[nodiscard]] MeshPlace place(double s) const { return place_of(structure_.mesh, member_, s / length()); }
-  [[nodiscard]] double length() const { return axis_.perfect().length(); }
-  [[nodiscard]] StressFreePoint undeformed(double s) const { return axis_.at(s); }
-
-  /// @brief Extremes along the member.
-  /// @param known its values at places, ascending
-  [[nodiscard]] MemberPeaks peaks(const MemberState& known) const;
-
- private:
-  struct Element {
-    ElementReader displacements;
-    SectionForces forces;
-  };
-  [[nodiscard]] std::size_t index_of(int element) const {
-    return static_cast<std::size_t>(element - structure_.mesh.first[static_cast<std::size_t>(member_)]);
-  }
-  [[nodiscard]] double s_of(const MeshPlace& place) const {
-    const MeshElement& cell = structure_.mesh.elements[static_cast<std::size_t>(place.element)];
-    return length() * (cell.from + place.xi * (cell.to - cell.from));
-  }
-  [[nodiscard]] std::array<double, 4> peak_values(const MeshPlace& place) const {
-    const Values values = at(place);
-    return {values.axial_force, values.shear_force, values.bending_moment,
-            std::hypot(values.displacement[0], values.displacement[1])};
-  }
-
-  const Structure& structure_;
-  const StressFreeAxis& axis_;
-  int member_;
-  std::vector<Element> elements_;
-};
-
-MemberPeaks MemberReader::peaks(const MemberState& known) const {
-  PeakSearch<4> search;
-  const auto known_values = [&known](std::size_t i) {
-    return std::array{known.axial_force[i], known.shear_force[i], known.bending_moment[i],
-                      std::hypot(known.u[i], known.v[i])};
-  };
-  const auto values_at = [this](double s) { return peak_values(place(s)); };
-  const int first = structure_.mesh.first[static_cast<std::size_t>(member_)];
-  const auto sample = [&](std::size_t element, double xi) {
-    const MeshPlace place{first + static_cast<int>(element), xi};
-    return PeakSearch<4>::Sample{s_of(place), peak_values(place)};
-  };
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
-    PeakSearch<4>::Sample from = sample(i, 0.0);
-    for (const double xi : elements_[i].forces.breaks()) {
-      // forces have the value beyond a jump at the jump itself
-      search.add_piece(known.s, known_values, from, sample(i, xi - kOnePlace), values_at);
-      from = sample(i, xi);
-    }
-    search.add_piece(known.s, known_values, from, sample(i, 1.0), values_at);
-  }
-  search.refine(values_at);
-  return {search.range(0, values_at), search.range(1, values_at), search.range(2, values_at),
-          search.largest(3, 1.0, values_at)};
+  member.extremes.utilisation = reader.largest_utilisation(member);
 }
 
 MemberState member_state(const MemberReader& reader, const Structure& structure, const std::string& id,
@@ -133,6 +55,7 @@ MemberState member_state(const MemberReader& reader, const Structure& structure,
     out.bending_moment.push_back(values.bending_moment);
   }
   out.extremes = reader.peaks(out);
+  add_utilisations(reader, out);
   return out;
 }
 
@@ -158,6 +81,7 @@ class FoundationReader {
 
   struct Values {
     double reaction, displacement;
+    double mobilised;  ///< size of the reaction over the capacity of the law; 0 where the law has none
   };
   /// Values at a fraction of the member, in the model's units and the user's sign: a pushing medium has a
   /// positive reaction, a pulling one a negative.
@@ -196,7 +120,8 @@ FoundationReader::Values FoundationReader::at(double fraction) const {
   // against rotation: moment per length, and rotation
   const Scales& scales = structure_.scales;
   return {in_users_sense(law_.sense, (law_.rotational ? scales.force : scales.line_load()) * reaction),
-          in_users_sense(law_.sense, (law_.rotational ? 1.0 : scales.length) * w)};
+          in_users_sense(law_.sense, (law_.rotational ? 1.0 : scales.length) * w),
+          acting.capacity > 0.0 ? std::abs(reaction) / acting.capacity : 0.0};
 }
 
 PeakRange FoundationReader::peaks(const FoundationState& known) const {
@@ -236,6 +161,7 @@ FoundationState foundation_state(const Structure& structure, const Eigen::Vector
     out.s.push_back(fraction * reader.length());
     out.reaction.push_back(values.reaction);
     out.displacement.push_back(values.displacement);
+    if (has_capacity(foundation)) out.mobilised.push_back(values.mobilised);
   }
   out.extremes = reader.peaks(out);
   return out;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "solver/numeric/rounding.h"
 #include "solver/problem/joint_work.h"
 #include "solver/report/resultant.h"
+#include "solver/support/capacity.h"
 
 namespace snapthrough {
 namespace {
@@ -81,7 +83,8 @@ VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidM
            in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
            in_users_sense(sense, (at.displacement + given) * (spring.direction ? L : 1.0)),
            at.closed,
-           {}});
+           {},
+           has_capacity(spring) ? std::optional(std::abs(at.force) / law.law.capacity) : std::nullopt});
     }
     if (!spring.at.is_on_member())
       for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;

@@ -51,8 +51,8 @@ double mean_of(const AlongMember& number, const Function& function) {
 }
 
 /// Spring that acts as a rod, which is number `index` of the model's members.
-Spring spring_of(const Member& rod, std::size_t index, const Node& a, const Node& b,
-                 const AlongMember& given) {
+Spring spring_of(const Member& rod, std::size_t index, const Node& a, const Node& b, const Section& section) {
+  const AlongMember& given = section.EA;
   const double EA =
       given.varies() ? 1.0 / mean_of(given, [](double value) { return 1.0 / value; }) : given.constant;
   Spring out;
@@ -66,6 +66,9 @@ Spring spring_of(const Member& rod, std::size_t index, const Node& a, const Node
   out.reaction = rod.reaction;
   out.pretension = rod.pretension;
   out.rod = index;
+  if (section.strength)
+    out.strength = section.strength->axial_force.least() *
+                   (rod.reaction == Reaction::compression_only ? section.strength->compression : 1.0);
   return out;
 }
 
@@ -94,7 +97,7 @@ std::optional<Model> with_rods_as_springs(const Model& model) {
     if (!is_rod(rod)) continue;
     const Section& section = model.sections[static_cast<std::size_t>(sections.of(rod.section))];
     const Spring& spring =
-        out.springs.emplace_back(spring_of(rod, m, node(rod.start), node(rod.end), section.EA));
+        out.springs.emplace_back(spring_of(rod, m, node(rod.start), node(rod.end), section));
     const double drawn = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
     const double length = rod.pretension ? rod.pretension->unstressed_length.value_or(drawn) : drawn;
     const double mass = length * mean_of(section.mass.value_or(0.0), [](double value) { return value; });

@@ -68,6 +68,81 @@ TEST(BendingLaw, TableReplacesTheEIOfAMaterial) {
   EXPECT_DOUBLE_EQ(steel.rotary_inertia->constant, 15.0);
 }
 
+/// Yield stress times area and section modulus; the second moment of a rectangle 2 x 3 is 4.5.
+TEST(Strength, IsThatOfMaterialAndShape) {
+  const json shape = {{"type", "rectangle"}, {"width", 2}, {"depth", 3}};
+  const Section rectangle = section_of({{"E", 200.0}, {"shape", shape}, {"strength", 10}});
+  ASSERT_TRUE(rectangle.strength);
+  EXPECT_DOUBLE_EQ(rectangle.strength->axial_force.constant, 60.0);
+  EXPECT_DOUBLE_EQ(rectangle.strength->bending_moment.constant, 30.0);
+  EXPECT_EQ(rectangle.strength->compression, 1.0);
+  const Section weak =
+      section_of({{"E", 200.0}, {"shape", shape}, {"strength", {{"tension", 2.0}, {"compression", 30.0}}}});
+  EXPECT_DOUBLE_EQ(weak.strength->bending_moment.constant, 6.0);
+  EXPECT_DOUBLE_EQ(weak.strength->compression, 15.0);
+  const Section tube = section_of(
+      {{"E", 1.0}, {"shape", {{"type", "tube"}, {"diameter", 2}, {"thickness", 1}}}, {"strength", 8.0}});
+  EXPECT_DOUBLE_EQ(tube.strength->bending_moment.constant, 2.0 * std::numbers::pi);
+  const Section material = section_of({{"E", 1.0}, {"A", 2.0}, {"I", 3.0}, {"W", 5.0}, {"strength", 7.0}});
+  EXPECT_DOUBLE_EQ(material.strength->axial_force.constant, 14.0);
+  EXPECT_DOUBLE_EQ(material.strength->bending_moment.constant, 35.0);
+  EXPECT_FALSE(section_of({{"E", 1.0}, {"A", 2.0}, {"I", 3.0}}).strength);
+}
+
+/// EN 10365 prints W = 557.1 cm3 of IPE 300 and 388.6 cm3 of HEA 200, and their areas 53.81 and 53.83 cm2.
+TEST(Strength, OfProfilesHasTheirSectionModulus) {
+  const auto strength = [](const char* name) {
+    return *section_of({{"E", 2.1e8}, {"profile", name}, {"unit", "cm"}, {"strength", 1.0}}).strength;
+  };
+  EXPECT_NEAR(strength("IPE 300").bending_moment.constant, 557.1, 0.05);
+  EXPECT_NEAR(strength("HEA 200").bending_moment.constant, 388.6, 0.05);
+  EXPECT_NEAR(strength("IPE 300").axial_force.constant, 53.81, 0.005);
+  EXPECT_NEAR(strength("HEA 200").axial_force.constant, 53.83, 0.005);
+}
+
+TEST(Strength, OfASectionByStiffnessMayTaper) {
+  const Section tapering =
+      section_of({{"EA", 4.0},
+                  {"EI", 7.0},
+                  {"strength", {{"axial_force", 3.0}, {"bending_moment", {{"along", {{0, 2}, {1, 1}}}}}}}});
+  EXPECT_EQ(tapering.strength->axial_force.constant, 3.0);
+  EXPECT_EQ(tapering.strength->bending_moment.at(0.5), 1.5);
+}
+
+TEST(Strength, IsRefused) {
+  const json shape = {{"type", "rectangle"}, {"width", 2}, {"depth", 3}};
+  const json law = {{"type", "ramberg_osgood"}, {"moment", 3.0}, {"exponent", 5.0}};
+  const struct {
+    json section;
+    const char* pointer;
+    const char* code;
+  } refused[] = {
+      {{{"E", 1.0}, {"shape", shape}, {"strength", 0}}, "/strength", "out_of_range"},
+      {{{"E", 1.0}, {"shape", shape}, {"strength", "S355"}}, "/strength", "wrong_type"},
+      {{{"E", 1.0}, {"shape", shape}, {"strength", {{"tension", 1}}}},
+       "/strength/compression",
+       "missing_field"},
+      {{{"E", 1.0}, {"A", 1.0}, {"I", 1.0}, {"strength", 1}}, "/W", "missing_field"},
+      {{{"E", 1.0}, {"A", 1.0}, {"I", 1.0}, {"W", 1}}, "/W", "ambiguous"},
+      {{{"EA", 1.0}, {"EI", 1.0}, {"strength", 1}}, "/strength", "wrong_type"},
+      {{{"EA", 1.0}, {"EI", 1.0}, {"strength", {{"axial_force", 1}}}},
+       "/strength/bending_moment",
+       "missing_field"},
+      {{{"EA", 1.0}, {"EI", 1.0}, {"strength", {{"axial_force", -1}, {"bending_moment", 1}}}},
+       "/strength/axial_force",
+       "out_of_range"},
+      {{{"E", 1.0}, {"shape", shape}, {"bending", {{"law", law}}}, {"strength", 1}},
+       "/strength",
+       "not_supported"},
+  };
+  for (const auto& one : refused) {
+    const ReadOutcome outcome = read_request(document_with(one.section).dump());
+    ASSERT_EQ(outcome.findings.size(), 1u) << one.section << write_findings(outcome.findings).dump();
+    EXPECT_EQ(outcome.findings[0].pointer, std::string("/model/sections/0") + one.pointer) << one.section;
+    EXPECT_EQ(outcome.findings[0].code, one.code) << one.section;
+  }
+}
+
 TEST(ShapedSection, HasTheStiffnessOfItsShape) {
   const Section rectangle = section_of(
       {{"E", 200.0}, {"nu", 0.25}, {"shape", {{"type", "rectangle"}, {"width", 2}, {"depth", 3}}}});

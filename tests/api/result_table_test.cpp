@@ -112,14 +112,15 @@ TEST(CsvField, HiddenFormulasAreMarked) {
 TEST(ResultTable, StatesAreRowsAlongTheMembers) {
   const json result = json::parse(R"({"states": [{"branch": 0, "load_factor": 2, "members": {
     "m": {"s": [0, 1], "x": [0, 0.5], "y": [0, 0.25], "rotation": [0, -1], "axial_force": [1, 2],
-          "shear_force": [3, 4], "bending_moment": [5, 6], "x0": [0, 1], "y0": [0, 0], "u": [0, -0.5], "v": [0, 0.25]},
+          "shear_force": [3, 4], "bending_moment": [5, 6], "x0": [0, 1], "y0": [0, 0], "u": [0, -0.5], "v": [0, 0.25],
+          "utilisation_left": [0.5, 0.75], "utilisation_right": [-0.5, -0.25]},
     "n": {"s": [0]}}}]})");
-  EXPECT_EQ(
-      result_csv(result, ResultTable::states),
-      "state,branch,load_factor,member,s,x0,y0,x,y,u,v,rotation,axial_force,shear_force,bending_moment\r\n"
-      "0,0,2,m,0,0,0,0,0,0,0,0,1,3,5\r\n"
-      "0,0,2,m,1,1,0,0.5,0.25,-0.5,0.25,-1,2,4,6\r\n"
-      "0,0,2,n,0,,,,,,,,,,\r\n");
+  EXPECT_EQ(result_csv(result, ResultTable::states),
+            "state,branch,load_factor,member,s,x0,y0,x,y,u,v,rotation,axial_force,shear_force,bending_moment,"
+            "utilisation_left,utilisation_right\r\n"
+            "0,0,2,m,0,0,0,0,0,0,0,0,1,3,5,0.5,-0.5\r\n"
+            "0,0,2,m,1,1,0,0.5,0.25,-0.5,0.25,-1,2,4,6,0.75,-0.25\r\n"
+            "0,0,2,n,0,,,,,,,,,,,,\r\n");
 }
 
 /// The values that are cut out of a document that comes in pieces of so many characters.

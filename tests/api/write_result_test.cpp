@@ -41,16 +41,19 @@ State full_state() {
                     {8.0},
                     {9.0},
                     {10.0},
-                    {{low, high}, {low, low}, {high, high}, high}}};
+                    {0.5},
+                    {-0.75},
+                    {{low, high}, {low, low}, {high, high}, high, Utilisation{-0.75, 0.25, Fibre::right}}}};
   state.supports = {{"a", 1.0, 2.0, 3.0}};
-  state.springs = {{"k", -0.5, -0.25, true, {1.5, 2.5, 3.5}}};
+  state.springs = {{"k", -0.5, -0.25, true, {1.5, 2.5, 3.5}, 0.25}};
   state.foundations = {{"soil",
                         {0.0, 1.0},
                         {0.25, 0.0},
                         {0.5, -0.5},
                         {{0.0, 0.5}, {0.75, 1.0}},
                         {0.5, 1.5, 2.5},
-                        {low, high}}};
+                        {low, high},
+                        {0.625, 0.0}}};
   state.loads = {4.5, 5.5, 6.5};
   return state;
 }
@@ -101,7 +104,13 @@ Result full_result() {
       StaticTable{{0.5, 1.0}, {{"crown", {0.0, -0.25}}}, {0, {}}, {{"soil", {1.0, 0.5}}}, {{}, 0}};
   r.not_reached = {2.0};
   const Extreme least{-1.0, 0.25, 0, 0.5}, most{2.0, 0.75, 1, 1.5};
-  r.extremes = {{"m", {least, most}, {most, most}, {least, least}, most}};
+  r.extremes = {{"m",
+                 {least, most},
+                 {most, most},
+                 {least, least},
+                 most,
+                 UtilisationExtreme{{0.875, 0.5, Fibre::left}, 1, 1.5}}};
+  r.first_yield = FirstYield{33.5, 1e-6, 0.75, "m", {-1.0, 0.25, Fibre::right}, {{"crown", -0.125}}};
   r.warnings = {{"large_strain", "much"}};
   r.buckling = BucklingResult{{1.5, 2.5}, {1e-6, {}}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}}}}}};
   r.discretization = {16, 3, 142, 2, 1e-3, 1e-4, 3, {}};
@@ -119,8 +128,8 @@ TEST(WriteResult, PartsAreThoseOfTheWholeDocument) {
   EXPECT_EQ(some["summary"], whole["summary"]);
 }
 
-TEST(WriteResult, EveryFieldOfTheContract) {
-  const json expected = json::parse(R"({"model": {"title": "arch", "units": {"length": "m"}},
+/// What full_result() is written as, but for `program`.
+constexpr const char* kFullDocument = R"({"model": {"title": "arch", "units": {"length": "m"}},
     "summary": {"critical_load_factor": 66.25, "critical_type": "bifurcation", "error_estimate": 1e-5,
                 "softest": {"load_factor": 60.5, "stiffness_ratio": 0.0625, "mode": {"members": {"m": {"s": [0.0], "u": [0.0], "v": [1.0], "rotation": [0.5]}}}},
                 "at_critical": {"displacement": 0.75, "relative_displacement": 0.5, "rotation": 0.25, "strain": 0.125},
@@ -150,13 +159,15 @@ TEST(WriteResult, EveryFieldOfTheContract) {
     "states": [{"branch": 0, "load_factor": 66.25, "refinements": 2,
       "members": {"m": {"s": [0.0], "x0": [1.0], "y0": [2.0], "x": [3.0], "y": [4.0], "u": [5.0], "v": [6.0],
         "rotation": [7.0], "axial_force": [8.0], "shear_force": [9.0], "bending_moment": [10.0],
+        "utilisation_left": [0.5], "utilisation_right": [-0.75],
         "extremes": {"axial_force": {"min": {"value": -1.5, "s": 0.25}, "max": {"value": 2.5, "s": 0.5}}, "shear_force": {"min": {"value": -1.5, "s": 0.25}, "max": {"value": -1.5, "s": 0.25}},
-                     "bending_moment": {"min": {"value": 2.5, "s": 0.5}, "max": {"value": 2.5, "s": 0.5}}, "displacement": {"max": {"value": 2.5, "s": 0.5}}}}},
+                     "bending_moment": {"min": {"value": 2.5, "s": 0.5}, "max": {"value": 2.5, "s": 0.5}}, "displacement": {"max": {"value": 2.5, "s": 0.5}},
+                     "utilisation": {"value": -0.75, "s": 0.25, "fibre": "right"}}}},
       "supports": {"a": {"fx": 1.0, "fy": 2.0, "moment": 3.0}},
       "springs": {"k": {"force": -0.5, "displacement": -0.25, "closed": true,
-                        "resultant": {"fx": 1.5, "fy": 2.5, "moment": 3.5}}},
+                        "resultant": {"fx": 1.5, "fy": 2.5, "moment": 3.5}, "mobilised": 0.25}},
       "foundations": {"soil": {"s": [0.0, 1.0], "reaction": [0.25, 0.0], "displacement": [0.5, -0.5],
-        "contact": [[0.0, 0.5], [0.75, 1.0]], "resultant": {"fx": 0.5, "fy": 1.5, "moment": 2.5}, "extremes": {"min": {"value": -1.5, "s": 0.25}, "max": {"value": 2.5, "s": 0.5}}}},
+        "contact": [[0.0, 0.5], [0.75, 1.0]], "resultant": {"fx": 0.5, "fy": 1.5, "moment": 2.5}, "extremes": {"min": {"value": -1.5, "s": 0.25}, "max": {"value": 2.5, "s": 0.5}}, "mobilised": [0.625, 0.0]}},
       "loads": {"fx": 4.5, "fy": 5.5, "moment": 6.5}}],
     "static": {"load_factor": [0.5, 1.0], "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, null],
       "contact_fraction": {"soil": [1.0, 0.5]}, "state": [null, 0]},
@@ -166,7 +177,10 @@ TEST(WriteResult, EveryFieldOfTheContract) {
       "shear_force": {"min": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}, "max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}},
       "bending_moment": {"min": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5},
                          "max": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5}},
-      "displacement": {"max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}}}}},
+      "displacement": {"max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}},
+      "utilisation": {"value": 0.875, "s": 0.5, "fibre": "left", "branch": 1, "load_factor": 1.5}}}},
+    "first_yield": {"load_factor": 33.5, "error_estimate": 1e-6, "arc_length": 0.75, "member": "m", "s": 0.25,
+                    "fibre": "right", "stress": "compression", "monitors": {"crown": -0.125}},
     "warnings": [{"code": "large_strain", "detail": "much"}],
     "buckling": {"load_factors": [1.5, 2.5], "error_estimates": [1e-6, null],
       "modes": [{"members": {"m": {"s": [0.0], "u": [1.0], "v": [2.0], "rotation": [3.0]}}}]},
@@ -174,7 +188,10 @@ TEST(WriteResult, EveryFieldOfTheContract) {
       "accuracy": {"requested": 1e-3, "estimated": 1e-4}}, "kind": "result", "program": null,
     "diagnostics": {"steps": 20, "rejected_steps": 1, "iterations": 60, "factorizations": 61,
       "max_relative_residual": 1e-12, "wall_time_s": 0.125, "skipped": ["foundation soil: stiffness 0"]}
-  })");
+  })";
+
+TEST(WriteResult, EveryFieldOfTheContract) {
+  const json expected = json::parse(kFullDocument);
   json written = write_result(some_request(), full_result(), 0.125);
   EXPECT_EQ(std::exchange(written["program"], expected["program"]), program_json());
   EXPECT_EQ(written, expected) << json::diff(expected, written).dump(2);
@@ -194,6 +211,7 @@ TEST(WriteResult, NothingKnownIsNull) {
   EXPECT_FALSE(written.contains("buckling"));
   EXPECT_FALSE(written.contains("static"));
   EXPECT_FALSE(written.contains("extremes"));
+  EXPECT_FALSE(written.contains("first_yield"));
   EXPECT_FALSE(written.contains("failure"));
 }
 

@@ -104,6 +104,29 @@ class Commands(unittest.TestCase):
                      "sections": [{"id": "s", "EA": 1e6, "EI": 1e5}], **parts}
             self.expect_valid(model, ["t"], "h")
 
+    def drawing(self, *lines):
+        """Returns a drawing with lines x0, y0, x1, y1."""
+        entities = "".join(f"0\nLINE\n8\nwall\n10\n{a}\n20\n{b}\n11\n{c}\n21\n{d}\n" for a, b, c, d in lines)
+        return f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+
+    def test_what_only_looks_joined_is_told_on_standard_error(self):
+        tee = self.drawing((0, 0, 6, 0), (3, 0, 3, 4), (3, 4, 3, 0))
+        run = self.run_it("convert", "dxf", "-", text=tee)
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(len(json.loads(run.stdout)["members"]), 2)
+        self.assertRegex(run.stderr, r"(?m)^Warning: 1 end lies on a segment .*\(3, 0\) on the segment of line 6; "
+                                     r"--join-tees .* \[tee_unjoined\]$")
+        self.assertRegex(run.stderr, r"(?m)^Warning: 1 segment is drawn twice .* \[duplicates_dropped\]$")
+        joined = self.run_it("convert", "dxf", "-", "--join-tees", text=tee)
+        self.assertEqual(len(json.loads(joined.stdout)["members"]), 3)
+        self.assertNotIn("tee_unjoined", joined.stderr)
+
+    def test_a_wrong_tolerance_is_told_by_its_name_and_rule(self):
+        for wrong in ("0", "-1", "nan", "inf", "1e151"):
+            run = self.run_it("convert", "dxf", "-", "--tolerance=" + wrong, text=self.drawing((0, 0, 1, 0)))
+            self.assertEqual((run.returncode, run.stdout), (1, ""), wrong)
+            self.assertIn("--tolerance must be a number above 0", run.stderr)
+
     def test_mistakes_have_status_2_and_their_place(self):
         soil = json.loads((EXAMPLES / "pile_soil.json").read_text(encoding="utf-8"))
         soil["layers"][1]["phi"] = 60
@@ -121,7 +144,7 @@ class Commands(unittest.TestCase):
 
     def test_wrong_arguments_have_status_1(self):
         for arguments in ([], ["pdf"], ["soil", "nowhere.json"], ["csv"], ["csv", "--nodes", "a.csv"],
-                          ["csv", "--nodes", "-", "--members", "-"], ["soil", "--layer", "a"], ["dxf", "--nodes", "a.csv"],
+                          ["csv", "--nodes", "-", "--members", "-"], ["soil", "--layer", "a"], ["dxf", "--nodes", "a.csv"], ["soil", "--join-tees"],
                           ["dxf", "examples/convert/portal.dxf", "--tolerance", "0"],
                           ["csv", "--nodes", "nowhere.csv", "--members", "nowhere.csv"]):
             run = self.run_it("convert", *arguments, text="")

@@ -284,6 +284,13 @@ test('files and figures', async () => {
     assert.equal((await plot('', {body: json})).status, 200);
     assert.equal((await convert('?layer=roof', options)).status, 422);
     assert.equal((await convert('?tolerance=0', options)).status, 400);
+    assert.equal((await convert('?join_tees=1', options)).status, 400);
+    // the line of the drawing a second time
+    const twice = {...options, body: options.body.replace(/0\nLINE\n(?:.*\n)*?(?=0\nENDSEC)/u, '$&$&')};
+    const told = JSON.parse((await convert('?join_tees=true', twice)).headers.get('X-Warnings'));
+    const warnings = document.paths['/v1/convert'].post.responses['200'].headers['X-Warnings'].schema;
+    assert.deepEqual(faults(validatorOf(warnings.contentSchema), told), []);
+    assert.deepEqual(told.map((one) => one.code), ['duplicates_dropped']);
   }
   const form = Object.entries(content['multipart/form-data'].example).map(
       ([name, table]) => `--x\r\nContent-Disposition: form-data; name="${name}"\r\n\r\n${table}\r\n`).join('');

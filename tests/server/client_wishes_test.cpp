@@ -312,7 +312,7 @@ TEST_F(AllowedOrigins, ResponsesErrorsAndStreamsCanBeReadByTheirPages) {
     EXPECT_EQ(reply.header("Access-Control-Allow-Origin"), kPage) << reply.status;
     EXPECT_EQ(reply.header("Access-Control-Allow-Credentials"), "");
     for (const char* name : {"Location", "ETag", "Link", "X-Cache", "X-Complete", "X-Request-Id",
-                             "Preference-Applied", "Retry-After"}) {
+                             "X-Warnings", "Preference-Applied", "Retry-After"}) {
       EXPECT_THAT(reply.header("Access-Control-Expose-Headers"), HasSubstr(name));
     }
   }

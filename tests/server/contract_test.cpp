@@ -66,37 +66,25 @@ TEST(Contract, EveryReferenceLeadsSomewhere) {
   }
 }
 
-/// Whether a finding is of a rule between several fields, which a schema does not say.
-bool needs_several_fields(const Finding& finding) {
-  static const std::set<std::string> kCodes{"unknown_reference", "duplicate_id",   // ids of other entities
-                                            "invalid_pointer",   "no_such_place",  // sensitivities
-                                            "unreached_node",    "zero_length",
-                                            "coincident_points",  // positions of several nodes or points
-                                            "needs_one_sided",    // gap and reaction
-                                            "needs_member",       // component and location of a monitor
-                                            "not_fixed",          // fixed and displacement of a support
-                                            "enters_obstacle",    // supports and rigid foundations
-                                            "no_load",           "mechanism",  // the model as a whole
-                                            "no_mass",                         // masses and frequencies
-                                            "unsupported",     // pairs of fields that do not go together
-                                            "not_supported",   // imperfections and the analysis
-                                            "not_increasing",  // one fraction and the one before
-                                            "too_many_findings"};
-  if (kCodes.contains(finding.code)) {
-    return true;
-  }
-  struct Rule {
-    std::string_view code;
-    std::regex pointer;  ///< the fields that the code is about; those of the rule stand in the comment
-  };
+/// A code of findings that is of a rule between several fields at some pointers.
+struct Rule {
+  std::string_view code;
+  std::regex pointer;  ///< the fields that the code is about; those of the rule stand in the comment
+};
+
+const std::vector<Rule>& rules_between_fields() {
   static const std::vector<Rule> kRules{
-      {"out_of_range", std::regex(".*/(range|load_factor)")},                       // lower and upper end
-      {"out_of_range", std::regex("/analysis/step")},                               // min, initial, max
-      {"out_of_range", std::regex("/model/sections/[0-9]+")},                       // E A, E I, G shear_area
+      {"out_of_range", std::regex(".*/(range|load_factor)")},           // lower and upper end
+      {"out_of_range", std::regex("/analysis/step")},                   // min, initial, max
+      {"out_of_range", std::regex("/model/sections/[0-9]+")},           // E A, E I, G shear_area
+      {"out_of_range", std::regex("/model/sections/[0-9]+/strength")},  // times area; both strengths
       {"out_of_range", std::regex(".*/shape/(thickness|web|flange|root_radius)")},  // dimensions of a shape
       {"out_of_range", std::regex(".*/curve/direction")},  // direction and positions of nodes
       // layers that follow one another, strengths, weights and water; the diameter of a section; ids
       {"out_of_range", std::regex("/model/(soils/.*|foundations/[0-9]+/(soil|member|diameter))")},
+      {"bad_id", std::regex("/model/foundations/[0-9]+/id")},  // those that soil gives are longer
+      // depth and diameter of a pipe, unit weights of its soil
+      {"out_of_range", std::regex("/model/foundations/[0-9]+/pipe(/depth|/soil/(total_)?unit_weight)?")},
       {"missing_field", std::regex("/model/(soils/.*|foundations/[0-9]+(/diameter)?)")},
       {"not_supported", std::regex("/model/foundations/[0-9]+/(soil|member|base)")},
       // as many as places
@@ -121,7 +109,29 @@ bool needs_several_fields(const Finding& finding) {
       {"too_many", std::regex(".*/(points_per_member|elements)")},  // times members, of all members
       {"too_many", std::regex("/model/imperfections/.*")},          // of one type
   };
-  return std::any_of(kRules.begin(), kRules.end(),
+  return kRules;
+}
+
+/// Whether a finding is of a rule between several fields, which a schema does not say.
+bool needs_several_fields(const Finding& finding) {
+  static const std::set<std::string> kCodes{"unknown_reference", "duplicate_id",   // ids of other entities
+                                            "invalid_pointer",   "no_such_place",  // sensitivities
+                                            "unreached_node",    "zero_length",
+                                            "coincident_points",  // positions of several nodes or points
+                                            "needs_one_sided",    // gap and reaction
+                                            "needs_member",       // component and location of a monitor
+                                            "not_fixed",          // fixed and displacement of a support
+                                            "enters_obstacle",    // supports and rigid foundations
+                                            "no_load",           "mechanism",  // the model as a whole
+                                            "no_mass",                         // masses and frequencies
+                                            "unsupported",     // pairs of fields that do not go together
+                                            "not_supported",   // imperfections and the analysis
+                                            "not_increasing",  // one fraction and the one before
+                                            "too_many_findings"};
+  if (kCodes.contains(finding.code)) {
+    return true;
+  }
+  return std::any_of(rules_between_fields().begin(), rules_between_fields().end(),
                      [&](const Rule& rule) {
                        return rule.code == finding.code && std::regex_match(finding.pointer, rule.pointer);
                      }) ||
@@ -299,6 +309,15 @@ class ContractOverHttp : public ServiceTest {
         "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nwall\n10\n0\n20\n0\n11\n1\n21\n0\n0\nENDSEC\n";
     use("POST", "/v1/convert", "/v1/convert", line, drawing);
     use("POST", "/v1/convert", "/v1/convert?layer=wall&tolerance=0.1", line, drawing);
+    const Reply twice = post(port(), "/v1/convert?join_tees=true",
+                             "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nwall\n10\n0\n20\n0\n11\n1\n21\n0\n"
+                             "0\nLINE\n8\nwall\n10\n1\n20\n0\n11\n0\n21\n0\n0\nENDSEC\n",
+                             drawing);
+    expect_published("POST", "/v1/convert", twice);
+    const json& headers = description()["paths"]["/v1/convert"]["post"]["responses"]["200"]["headers"];
+    EXPECT_TRUE(schemas_.valid(headers["X-Warnings"]["schema"]["contentSchema"],
+                               json::parse(twice.header("X-Warnings"))));
+    use("POST", "/v1/convert", "/v1/convert?join_tees=yes", line, drawing);
     use("POST", "/v1/convert", "/v1/convert?layer=roof", line, drawing);
     use("POST", "/v1/convert", "/v1/convert?layers=wall", line, drawing);
     use("POST", "/v1/convert", "/v1/convert", "0\nCIRCLE\n", drawing);

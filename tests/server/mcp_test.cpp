@@ -109,6 +109,55 @@ TEST(McpSession, AnArgumentThatNoToolHasIsRefused) {
   EXPECT_EQ(document_in(said.at(0)).at("errors").at(0).at("pointer"), "/coun");
 }
 
+/// A drawing of a beam and a post that stands on it, with the post drawn twice.
+const std::string kTee =
+    "0\nSECTION\n2\nENTITIES\n"
+    "0\nLINE\n8\nwall\n10\n0\n20\n0\n11\n6\n21\n0\n"
+    "0\nLINE\n8\nwall\n10\n3\n20\n0\n11\n3\n21\n4\n"
+    "0\nLINE\n8\nwall\n10\n3\n20\n4\n11\n3\n21\n0\n"
+    "0\nENDSEC\n0\nEOF\n";
+
+TEST(McpSession, WarningsOfADrawingStandBesideTheParts) {
+  const std::vector<json> said = said_to(
+      call(1, "convert", {{"drawing", kTee}}) + call(2, "convert", {{"drawing", kTee}, {"join_tees", true}}) +
+      call(3, "convert",
+           {{"nodes", "id,x,y\na,0,0\nb,1,0\n"}, {"members", "id,start,end,section\nab,a,b,s\n"}}));
+  ASSERT_EQ(said.size(), 3U);
+  const std::vector<std::vector<std::string>> codes{{"tee_unjoined", "duplicates_dropped"},
+                                                    {"duplicates_dropped"}};
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const json& content = said[i].at("result").at("content");
+    EXPECT_FALSE(said[i].at("result").contains("isError"));
+    ASSERT_EQ(content.size(), 2U);
+    EXPECT_EQ(content[1].at("type"), "text");
+    const json warnings = json::parse(content[1].at("text").get<std::string>()).at("warnings");
+    ASSERT_EQ(warnings.size(), codes[i].size());
+    for (std::size_t k = 0; k < warnings.size(); ++k) {
+      EXPECT_EQ(warnings[k].at("code"), codes[i][k]);
+    }
+    const json parts = document_in(said[i]);
+    EXPECT_EQ(parts.size(), 3U);  // nodes, members and sections, which a model takes as they are
+    EXPECT_EQ(parts.at("members").size(), 2U + i);
+    EXPECT_EQ(parts.at("nodes").size(), 4U);
+  }
+  EXPECT_THAT(said[0].at("result").at("content").at(1).at("text").get<std::string>(),
+              HasSubstr("; join_tees divides the segments there"));
+  EXPECT_EQ(said[2].at("result").at("content").size(), 1U);
+}
+
+TEST(McpSession, AWrongChoiceForADrawingIsToldByItsArgument) {
+  const std::vector<json> said = said_to(call(1, "convert", {{"drawing", kTee}, {"join_tees", "yes"}}) +
+                                         call(2, "convert", {{"drawing", kTee}, {"tolerance", 1e151}}) +
+                                         call(3, "convert", {{"drawing", kTee}, {"layers", {"roof"}}}));
+  const std::vector<std::string> pointers{"/join_tees", "/tolerance", "/layers"};
+  ASSERT_EQ(said.size(), pointers.size());
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    EXPECT_TRUE(said[i].at("result").at("isError")) << said[i];
+    EXPECT_EQ(document_in(said[i]).at("errors").at(0).at("pointer"), pointers[i]);
+  }
+  EXPECT_EQ(document_in(said[0]).at("errors").at(0).at("detail"), "must be true or false");
+}
+
 TEST(McpDigest, NamesTheListsThatItLeavesOut) {
   const json document = {
       {"short", {1, 2}}, {"long", {1, 2, 3}}, {"in/side", {{{"long", {1, 2, 3, 4}}, {"kept", 7}}}}};

@@ -3,15 +3,21 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "api/openapi/document.h"
 #include "server/cli/app.h"
+#include "server/resources/message.h"
 #include "solver/solve.h"
 #include "tests/server/support/owners.h"
 #include "tests/server/support/running_service.h"
@@ -20,7 +26,9 @@ namespace snapthrough::server::test {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 using std::chrono_literals::operator""ms;
 
@@ -54,6 +62,37 @@ std::string drawing(const std::string& entities) {
 }
 const std::string kLine = "0\nLINE\n8\nwall\n10\n0\n20\n0\n11\n1\n21\n0\n";
 
+/// A line from (x[0], x[1]) to (x[2], x[3]).
+std::string line(const std::array<double, 4>& x, const std::string& layer = "wall") {
+  return "0\nLINE\n8\n" + layer + "\n10\n" + json(x[0]).dump() + "\n20\n" + json(x[1]).dump() + "\n11\n" +
+         json(x[2]).dump() + "\n21\n" + json(x[3]).dump() + "\n";
+}
+
+/// @brief A drawing with four places of each kind that a warning tells, with a tolerance of `unit` / 10 000.
+/// @param unit length of the unit; x and y are negative and have more digits than a warning shows
+std::string doubtful_drawing(double unit) {
+  const std::array<double, 4> lines[] = {
+      {0, 0, 4, 0},          {4, 0, 0, 0},          // twice
+      {2, 0.00005, 2, 1},                           // an end on the first one, within the tolerance
+      {1, 0.002, 1, 2.4},                           // an end almost on it
+      {4.00005, 0, 6, 0},    {4.001, 0.001, 6, 3},  // an end that is joined to its end, and one that is not
+      {0.5, -1, 0.5, -2.25}, {0, -1.5, 3, -1.5}};   // a crossing
+  std::string entities;
+  for (int i = 0; i < 4; ++i) {
+    const double x = 112.345678912 + 10 * i;
+    const double y = 112.345678912;
+    const auto placed = [&](const std::array<double, 4>& one) {
+      return std::array{-(x + one[0]) * unit, -(y + one[1]) * unit, -(x + one[2]) * unit,
+                        -(y + one[3]) * unit};
+    };
+    for (const auto& one : lines) {
+      entities += line(placed(one));
+    }
+    entities += line(placed(lines[0]), "other");
+  }
+  return drawing(entities);
+}
+
 /// A table of one parameter: the load of three columns.
 json small_table() {
   return {{"columns", {"EI", "/summary/critical_load_factor", "error"}},
@@ -76,7 +115,8 @@ class Tools : public ServiceTest {
     return post(port(), target, body, {"Content-Type: " + type});
   }
   /// What the command line prints; fails the test unless its exit status is 0.
-  static std::string printed(const std::vector<std::string>& arguments, const std::string& input = "") {
+  static std::string printed(const std::vector<std::string>& arguments, const std::string& input = "",
+                             std::string* warnings = nullptr) {
     std::vector<const char*> words{"snapthrough"};
     for (const std::string& argument : arguments) {
       words.push_back(argument.c_str());
@@ -85,6 +125,9 @@ class Tools : public ServiceTest {
     std::ostringstream out;
     std::ostringstream err;
     EXPECT_EQ(cli::run(static_cast<int>(words.size()), words.data(), {in, out, err}), 0) << err.str();
+    if (warnings != nullptr) {
+      *warnings = err.str();
+    }
     return out.str();
   }
   std::string file(const std::string& name, const std::string& text) {
@@ -133,6 +176,77 @@ TEST_F(Tools, FilesGiveThePartsThatTheCommandPrints) {
   expect_bytes(sent("/v1/convert", form({table("nodes"), table("members"), table("sections")}),
                     "Multipart/Form-Data; charset=utf-8; boundary=\"----x\""),
                kJson, printed(all));
+}
+
+/// What the command would print of the warnings in the header of an answer.
+std::string warnings_of(const Reply& reply) {
+  std::string lines;
+  for (const json& warning : json::parse(reply.header("X-Warnings"))) {
+    EXPECT_EQ(warning.size(), 2U) << warning;
+    lines += "Warning: " + warning["detail"].get<std::string>() + " [" + warning["code"].get<std::string>() +
+             "]\n";
+  }
+  return lines;
+}
+
+// The body stays what a model takes; what it leaves out, and what only looks joined, is told beside it.
+TEST_F(Tools, WarningsOfADrawingAreInAHeader) {
+  const std::string tee = drawing(line({0, 0, 6, 0}) + line({3, 0, 3, 4}) + line({3, 4, 3, 0}));
+  for (const char* query : {"", "?join_tees=false"}) {
+    const Reply apart = sent("/v1/convert" + std::string(query), tee, kDrawing);
+    expect_bytes(apart, kJson, printed({"convert", "dxf"}, tee));
+    EXPECT_EQ(json::parse(apart.body)["members"].size(), 2U);
+    EXPECT_EQ(warnings_of(apart),
+              "Warning: 1 end lies on a segment that it is not joined to: (3, 0) on the segment of line 6; "
+              "join_tees divides the segments there [tee_unjoined]\n"
+              "Warning: 1 segment is drawn twice and is left out: line 30 on line 18 from (3, 4) to (3, 0); "
+              "each stays once [duplicates_dropped]\n");
+  }
+  const Reply joined = sent("/v1/convert?join_tees=true&layer=wall", tee, kDrawing);
+  expect_bytes(joined, kJson, printed({"convert", "dxf", "--join-tees"}, tee));
+  EXPECT_EQ(json::parse(joined.body)["members"].size(), 3U);
+  EXPECT_THAT(warnings_of(joined), AllOf(HasSubstr("[duplicates_dropped]"), Not(HasSubstr("tee"))));
+  const Reply sound = sent("/v1/convert?join_tees=true", drawing(kLine), kDrawing);
+  EXPECT_EQ(sound.status, 200);
+  EXPECT_EQ(sound.header("X-Warnings"), "");
+  const Reply refused = sent("/v1/convert?layer=roof", tee, kDrawing);
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(refused.header("X-Warnings"), "");
+}
+
+// Programs between a client and the service may refuse a head of more than 4 kB. Warnings name places by
+// numbers and lines alone, so that no text of a drawing makes them longer.
+TEST_F(Tools, WarningsOfAnyDrawingFitIntoAHeader) {
+  std::set<std::string> codes;
+  for (const double unit : {1.0, 1.23456789e-5, 3.14159265358979e146}) {
+    const std::string doubtful = doubtful_drawing(unit);
+    const std::string tolerance = json(1e-4 * unit).dump();
+    for (const bool join_tees : {false, true}) {
+      SCOPED_TRACE(tolerance + (join_tees ? " and join_tees" : ""));
+      std::vector<std::string> command{"convert", "dxf", "--tolerance", tolerance};
+      if (join_tees) {
+        command.emplace_back("--join-tees");
+      }
+      std::string told;
+      const std::string parts = printed(command, doubtful, &told);
+      const Reply reply = post(port(),
+                               "/v1/convert?tolerance=" + http::percent_encoded(tolerance) +
+                                   "&join_tees=" + (join_tees ? "true" : "false"),
+                               doubtful, {"Content-Type: " + kDrawing});
+      expect_bytes(reply, kJson, parts);
+      EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 7) << told;
+      told = std::regex_replace(std::regex_replace(told, std::regex("--join-tees"), "join_tees"),
+                                std::regex("--tolerance"), "tolerance");
+      EXPECT_EQ(warnings_of(reply), told);
+      EXPECT_LT(reply.header("X-Warnings").size(), 4096U);
+      for (const json& warning : json::parse(reply.header("X-Warnings"))) {
+        codes.insert(warning["code"]);
+      }
+    }
+  }
+  const json published = json::parse(api::openapi_document())["paths"]["/v1/convert"]["post"]["responses"];
+  const json& warnings = published["200"]["headers"]["X-Warnings"]["schema"]["contentSchema"];
+  EXPECT_EQ(codes, warnings["items"]["properties"]["code"]["enum"].get<std::set<std::string>>());
 }
 
 struct BadFile {
@@ -193,12 +307,19 @@ TEST_F(Tools, WrongFilesAreToldByPlaceAndRule) {
 
 TEST_F(Tools, QueryParametersAreThoseOfTheCommands) {
   const std::string sound = drawing(kLine);
-  for (const char* query : {"tolerance=0", "tolerance=-1", "tolerance=nan", "tolerance=inf", "tolerance=1m",
-                            "tolerance=1&tolerance=2", "layers=wall", "form=dxf"}) {
+  for (const char* query :
+       {"tolerance=0", "tolerance=-1", "tolerance=nan", "tolerance=inf", "tolerance=1m", "tolerance=1e151",
+        "tolerance=1&tolerance=2", "layers=wall", "form=dxf", "join_tees", "join_tees=", "join_tees=1",
+        "join_tees=True", "join-tees=true", "join_tees=true&join_tees=false"}) {
+    SCOPED_TRACE(query);
     expect_problem(sent("/v1/convert?" + std::string(query), sound, kDrawing), 400, "invalid-parameter");
   }
+  EXPECT_THAT(json::parse(sent("/v1/convert?join_tees=yes", sound, kDrawing).body)["detail"],
+              AllOf(HasSubstr("join_tees (true or false)"), HasSubstr("none of them: join_tees=yes")));
   const std::string soil = text_of(kExamples + "convert/pile_soil.json");
-  expect_problem(sent("/v1/convert?layer=wall", soil), 400, "invalid-parameter");
+  for (const char* query : {"layer=wall", "join_tees=true"}) {
+    expect_problem(sent("/v1/convert?" + std::string(query), soil), 400, "invalid-parameter");
+  }
   const std::string table = small_table().dump();
   for (const char* query :
        {"kind=pie", "state=-1", "state=1.5", "mode=x", "branch=", "arc-length=1", "dark", "magnify=0",
@@ -244,6 +365,8 @@ TEST_F(Tools, FiguresAreThoseOfTheCommand) {
   const std::string pile = text_of(kExamples + "pile_in_soil.json");
   expect_bytes(sent("/v1/plot?kind=law&law=friction", pile), svg,
                printed({"plot", "-", "--kind", "law", "--law", "friction"}, pile));
+  expect_bytes(sent("/v1/plot?kind=laws&law=friction", pile), svg,
+               printed({"plot", "-", "--kind", "laws", "--law", "friction"}, pile));
   expect_bytes(sent("/v1/plot?kind=stiffness", both), svg,
                printed({"plot", result_file, "--kind", "stiffness"}));
 }

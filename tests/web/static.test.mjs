@@ -59,7 +59,7 @@ test('every problem of practice opens from the gallery and is solved in the page
   const openGallery = () => page.getByRole('button', { name: 'Gallery' }).click();
   await openGallery();
   const names = await page.locator('.gallery li:has(img) strong').allInnerTexts();
-  assert.equal(names.length, 12);
+  assert.equal(names.length, 16);
   await page.keyboard.press('Escape');
   for (const name of names) {
     await openGallery();

@@ -125,11 +125,11 @@ class Local:
         """Draws a result or a table as SVG text, as `snapthrough plot` does.
 
         `document` is a Result, a Table, or the JSON text of one. `options` are the choices of
-        docs/howto/plot-results.md: kind ("path", "shape", "sections", "mode", "model", "law", "frequencies",
-        "stiffness", "sweep" or "heatmap"), width, height,
-        dark, state, mode, monitor and so on; solved_request={"model": model, "analysis": analysis} lets supports,
-        ground and loads be drawn. Raises InvalidRequest with a pointer that begins with "choices:" where one is
-        wrong, and UsageError when the library is too old to plot.
+        docs/howto/plot-results.md: kind ("path", "shape", "sections", "mode", "model", "law", "laws",
+        "frequencies", "stiffness", "sweep" or "heatmap"), width, height, dark, state, mode, monitor and so on;
+        solved_request={"model": model, "analysis": analysis} lets supports, ground and loads be drawn.
+        Raises InvalidRequest with a pointer that begins with "choices:" where one is wrong, and UsageError when the
+        library is too old to plot.
         """
         if not self._library.can_plot:
             raise UsageError(f"{self.library} (version {self.version}) has no snapthrough_plot")

@@ -7,58 +7,31 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "api/api.h"
 #include "api/convert/convert.h"
+#include "tests/api/convert/drawing.h"
 #include "tests/findings.h"
 
 namespace snapthrough::api {
 namespace {
 
 using nlohmann::json;
+using snapthrough::testing::drawing;
+using snapthrough::testing::ends;
+using snapthrough::testing::groups;
 using snapthrough::testing::is_finding;
+using snapthrough::testing::line;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-/// Returns lines "code\nvalue\n" from "code value; code value; ...".
-std::string groups(const std::string& text) {
-  std::string lines;
-  std::istringstream in(text);
-  for (std::string pair; std::getline(in, pair, ';');) {
-    const std::size_t first = pair.find_first_not_of(' ');
-    const std::size_t blank = pair.find(' ', first);
-    lines += pair.substr(first, blank - first) + "\n" + pair.substr(blank + 1) + "\n";
-  }
-  return lines;
-}
-
-/// Returns a drawing with these entities, whose first line is line 5.
-std::string drawing(const std::string& entities) {
-  return groups("0 SECTION; 2 ENTITIES") + groups(entities) + groups("0 ENDSEC; 0 EOF");
-}
-
-std::string line(double x0, double y0, double x1, double y1) {
-  return "0 LINE; 8 wall; 10 " + std::to_string(x0) + "; 20 " + std::to_string(y0) + "; 11 " +
-         std::to_string(x1) + "; 21 " + std::to_string(y1);
-}
 
 json converted(const std::string& text, const DxfOptions& options = {}) {
   const Conversion conversion = convert_dxf(text, options);
   EXPECT_THAT(conversion.findings, IsEmpty());
   return conversion.document == nullptr ? json::object() : *conversion.document;
-}
-
-/// Returns start and end node of each member.
-std::vector<std::string> ends(const json& parts) {
-  std::vector<std::string> all;
-  for (const json& member : parts.at("members")) {
-    all.push_back(member["start"].get<std::string>() + "-" + member["end"].get<std::string>());
-  }
-  return all;
 }
 
 TEST(ConvertDxf, LinesJoinToMembersAndNodes) {
@@ -224,7 +197,7 @@ TEST(ConvertDxf, AnyTextIsAnswered) {
       text[random() % text.size()] = "0123456789-.e\n Aq\xFF"[random() % 18];
     }
     text.resize(random() % 4 == 0 ? random() % text.size() : text.size());
-    const Conversion conversion = convert_dxf(text, {});
+    const Conversion conversion = convert_dxf(text, {{}, std::nullopt, i % 2 == 0});
     EXPECT_EQ(conversion.document == nullptr, !conversion.findings.empty()) << text;
     if (conversion.document != nullptr) {
       EXPECT_NO_THROW(static_cast<void>(conversion.document->dump()));

@@ -116,7 +116,7 @@ constexpr MarkForm kForms[] = {
     {"bifurcation", "bifurcation", {0, -7}}, {"broken_bifurcation", "broken", {0, -7}},
     {"flutter", "flutter", {-6, -6.5}},      {"softest", "softest", {-5, -5}},
     {"limit_max", "limit", {0, -6.5}},       {"limit_min", "limit", {0, 6.5}},
-    {"capacity", "limit", {-6, -5}}};
+    {"capacity", "limit", {-6, -5}},         {"first_yield", "yield", {-4.5, -6}}};
 
 Mark read_mark(const SvgElement& mark) {
   if (mark.is("event")) {

@@ -285,6 +285,31 @@ TEST(HostileDocument, AnyValueOfALawMayBeAnother) {
   }
 }
 
+TEST(HostileDocument, AnyValueOfAModelWithLawsMayBeAnother) {
+  const json number = {{"along", {{0, 1}, {0.5, 2}}}};
+  const json table = {{"type", "table"}, {"points", {{1, 2}, {2, 1}}}, {"factor", number}};
+  const json power = {
+      {"type", "power"}, {"stiffness", number}, {"capacity", 2}, {"reference", 4}, {"exponent", 0.5}};
+  const json model = {
+      {"nodes", {{{"id", "a"}, {"x", 0}, {"y", 0}}, {{"id", "b"}, {"x", 1}, {"y", -9}}}},
+      {"members",
+       {{{"id", "m"},
+         {"start", "a"},
+         {"end", "b"},
+         {"release", {{"end", {{"rotation", {{"law", table}}}}}}}}}},
+      {"foundations",
+       {{{"id", "f"}, {"member", "m"}, {"range", {0, 0.5}}, {"law", table}},
+        {{"id", "g"},
+         {"member", "m"},
+         {"reaction", "tension_only"},
+         {"side", "right"},
+         {"gap", number},
+         {"law", power}}}},
+      {"springs",
+       {{{"id", "s"}, {"at", {{"node", "b"}}}, {"direction", {0, 1}}, {"gap", 1}, {"law", table}}}}};
+  expect_figures_or_errors({{"model", model}}, kinds({PlotKind::law, PlotKind::laws}));
+}
+
 TEST(HostileDocument, AnyValueOfFrequenciesMayBeAnother) {
   const json motions = {{"omega_squared", {4, 4}}, {"imaginary", {-1, 1}}};
   const json still = {{"omega_squared", {1, 9}}};

@@ -208,7 +208,9 @@ struct ReadAxis {
 
 /// The axes of a chart by its tick labels: those of the horizontal one are centred, of the vertical one end
 /// at the axis.
-inline std::pair<ReadAxis, ReadAxis> read_axes(const SvgReader& svg) {
+/// @param svg a figure, or a part of one that finds elements by their looks
+template <class Elements>
+std::pair<ReadAxis, ReadAxis> read_axes(const Elements& svg) {
   std::pair<ReadAxis, ReadAxis> axes;
   bool first_x = true;
   bool first_y = true;

@@ -75,6 +75,13 @@ function pushed(pile, foundations) {
   };
 }
 
+/** A drawing of lines x0, y0, x1, y1, each on its layer. */
+function drawing(lines) {
+  const entities = Object.entries(lines).map(([layer, [x0, y0, x1, y1]]) =>
+    `0\nLINE\n8\n${layer}\n10\n${x0}\n20\n${y0}\n11\n${x1}\n21\n${y1}\n`);
+  return `0\nSECTION\n2\nENTITIES\n${entities.join('')}0\nENDSEC\n0\nEOF\n`;
+}
+
 describe('problems in words', () => {
   const asked = [];
   let client;
@@ -130,8 +137,38 @@ describe('problems in words', () => {
       const whole = pointer.split('/').slice(1).reduce((value, key) => value[key], wanted);
       assert.deepEqual(part.value, whole.slice(0, part.value.length));
     }
-    const drawing = await call(client, 'plot', {id: found.id, kind: 'shape', svg: true});
-    assert.match(drawing.content[0].resource.text, /^<\?xml|^<svg/u);
+    const drawn = await call(client, 'plot', {id: found.id, kind: 'shape', svg: true});
+    assert.match(drawn.content[0].resource.text, /^<\?xml|^<svg/u);
+  });
+});
+
+describe('drawings', () => {
+  let client;
+  before(async () => {
+    client = await connect(() => assert.fail('nothing can be asked'));
+  });
+  after(() => client.close());
+
+  test('"A post stands under the middle of the beam that I drew. How far does the beam go down there?"', async () => {
+    const text = drawing({beam: [0, 0, 6, 0], post: [3, 0, 3, -2]});
+    const apart = await call(client, 'convert', {drawing: text});
+    const {warnings} = JSON.parse(apart.content[1].text);
+    assert.deepEqual(warnings.map((one) => one.code), ['tee_unjoined']);
+    assert.match(warnings[0].detail, /\(3, 0\).*; join_tees divides the segments there$/u);
+    assert.equal(document(apart).members.length, 2);
+    const result = await call(client, 'convert', {drawing: text, join_tees: true});
+    assert.equal(result.content.length, 1, 'nothing to warn of');
+    const model = document(result);
+    const at = (x, y) => model.nodes.find((node) => node.x === x && node.y === y).id;
+    model.sections = [{id: 'beam', EA: 1e6, EI: 1000}, {id: 'post', EA: 1000, EI: 1}];
+    model.supports = [{node: at(0, 0), fixed: ['x', 'y']}, {node: at(6, 0), fixed: ['y']}, {node: at(3, -2), fixed: ['x', 'y']}];
+    model.loads = [{type: 'point', at: {node: at(3, 0)}, force: [0, -1]}];
+    model.monitors = [{id: 'middle', at: {node: at(3, 0)}, component: 'y'}];
+    const found = await answered(client, 'solve', {model, analysis: {type: 'static', geometry: 'linear'}});
+    // beam on two supports and post side by side: 48 EI / L^3 + EA / h
+    const down = 1 / (48 * 1000 / 6 ** 3 + 1000 / 2);
+    const [moved] = found.static.monitors.middle;
+    assert.ok(Math.abs(moved + down) < 1e-9 * down, `${moved}`);
   });
 });
 

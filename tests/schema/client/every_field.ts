@@ -21,6 +21,10 @@ const sections: Schemas['Section'][] = [
   {id: 'table', EA: 1e6, GA: 1e5, mass: 0.1, rotary_inertia: 1e-4, expansion: 1e-5, bending: table},
   {id: 'tapering', EA: {along: [[0, 1e6], [1, 2.5e5]], power: 2}, EI: {along: [[0, 10], [1, 0.625]], power: 4},
     GA: {along: [[0, 1e5], [1, 2.5e4]], power: 2}, mass: {along: [[0, 0.1], [1, 0.025]]}},
+  {id: 'strong', EA: 1e6, EI: 10, strength: {axial_force: 1e3, bending_moment: {along: [[0, 5], [1, 2.5]]}}},
+  {id: 'material with strength', E: 2e8, A: 1e-2, I: 1e-5, W: 1e-3, strength: {tension: 2e4, compression: 1e5}},
+  {id: 'profile with strength', E: 2.1e8, profile: 'HEA 200', unit: 'm', strength: 355e3},
+  {id: 'shape with strength', E: 2.1e8, shape: {type: 'tube', diameter: 0.5, thickness: 0.01}, strength: 355e3},
   {id: 'rigid', EA: 'rigid', EI: 'rigid', GA: 'rigid'},
   {id: 'material', E: 2e8, A: 1e-2, I: 1e-5, nu: 0.3, shear_area: 8e-3, density: 7.85, expansion: 1e-5, bending: table},
   {id: 'profile', E: 2.1e8, profile: 'IPE 300', unit: 'm', nu: 0.3, mass: 0.0422, expansion: 1e-5, bending: bends},
@@ -93,11 +97,18 @@ foundations.push(
 foundations.push(
     {id: 'pile', member: 'beam', soil: 'site', ground_level: 0, diameter: 1.2, multiplier: {p: 0.8, y: 1.5}, base: true,
      displacement: {x: 0.01}});
+foundations.push(
+    {id: 'line', member: 'beam', displacement: {y: 0.01},
+     pipe: {plane: 'vertical', depth: 1.2, diameter: 0.61, displacements: {axial: 0.003, lateral: 0.04, uplift: 0.01, bearing: 0.06},
+            soil: {type: 'sand', unit_weight: 18, total_unit_weight: 19, phi: 35, coating_factor: 0.7, K0: 0.5, density: 'dense'}}},
+    {id: 'plan', member: 'beam',
+     pipe: {plane: 'horizontal', depth: 1.2, displacements: {axial: 0.01},
+            soil: {type: 'clay', unit_weight: 9, Su: 40, adhesion: 0.9, consistency: 'soft'}}});
 
 const layer = {top: 0, bottom: 5, unit_weight: 9};
 const soils: Schemas['Soil'][] = [
-  {id: 'site', water_table: 2, water_unit_weight: 9.81, scour: {general: 1, local: 0.5}, loading: 'cyclic', accuracy: 0.01,
-   layers: [
+  {id: 'site', water_table: 2, water_unit_weight: 9.81, scour: {general: 1, local: 0.5}, loading: 'cyclic', layering: 'georgiadis',
+   accuracy: 0.01, layers: [
      {...layer, type: 'api_sand', phi: 35, k: 2e4, end_bearing: 5e3,
       axial: {type: 'api_tz_sand', friction: [5, 80], peak_displacement: 0.0025}},
      {...layer, type: 'api_sand', C1: 2, C2: 3, C3: 30, k: 2e4},

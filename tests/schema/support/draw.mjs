@@ -147,7 +147,7 @@ export class Drawer {
     for (const one of model.sections) for (const field of ['EA', 'EI', 'GA']) if (one[field] === 'rigid') one[field] = 1;
   }
 
-  /** Layers from the surface to below all members, and straight members in them. */
+  /** Layers from the surface to below all members, and straight members in them; pipes in plan at a depth of two diameters. */
   agreeSoils(model) {
     for (const soil of model.soils ?? []) {
       for (const field of ['water_table', 'water_unit_weight', 'scour']) delete soil[field];
@@ -156,12 +156,18 @@ export class Drawer {
         for (const field of ['Su', 'G0', 'k', 'q_u', 'E_ir', 'metre', 'kilonewton']) if (field in layer) layer[field] = 20;
         if (layer.axial) layer.axial.friction = 1;
       });
+      if (soil.layers.some(({type}) => type.startsWith('pisa'))) delete soil.layering;
     }
     const straight = model.members.filter(({curve}) => !curve || curve.type === 'line');
     const inSoil = (one) => Object.assign(one, {
       soil: this.pick(model.soils).id, member: this.pick(straight).id, ground_level: 100, diameter: 1, base: false});
     if (model.soils?.length && straight.length) model.foundations?.filter(({soil}) => soil !== undefined).forEach(inSoil);
     else if (model.foundations) model.foundations = model.foundations.filter(({soil}) => soil === undefined);
+    for (const {pipe} of model.foundations ?? []) {
+      if (!pipe) continue;
+      Object.assign(pipe, {plane: 'horizontal', depth: 2, diameter: 1});
+      delete pipe.soil.total_unit_weight;
+    }
   }
 
   /** Dimensions that go together, one of two fields, what the loads need. */
@@ -171,6 +177,11 @@ export class Drawer {
       for (const number of [one.EA, one.EI, one.GA, one.mass, one.rotary_inertia]) ascend(number);
       if ('nu' in one) delete one.G;
       if (one.bending && one.EI?.along) one.EI = 1;
+      if (one.bending || (one.A && !(one.W && one.strength))) {
+        delete one.strength;
+        delete one.W;
+      }
+      for (const number of [one.strength?.axial_force, one.strength?.bending_moment]) ascend(number);
       if (one.bending?.law.points) one.bending.law.points = one.bending.law.points.map((unused, i) => [i + 1, i + 1]);
       if (one.shape?.type === 'tube') one.shape.thickness = one.shape.diameter / 4 || one.shape.diameter;
       if (one.shape?.type === 'i_section') {

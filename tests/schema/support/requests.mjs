@@ -107,6 +107,9 @@ export function answerable() {
   add('path, load control', arch(), {type: 'path', control: 'load'});
   add('path, displacement control', arch(),
       {type: 'path', control: {displacement: 'crown'}, stop: {monitor: {id: 'crown', range: [-1, 1]}}});
+  const withStrength = beam();
+  for (const section of withStrength.sections) Object.assign(section, {strength: 4e4, W: 1e-4});
+  add('path, first yield', withStrength, {type: 'path', stop: {load_factor: [-2, 3]}, output: {states: 'all', extremes: true}});
   add('path with contact', beam(), {type: 'path', stop: {load_factor: [-2, 3]}, output: {states: 'all', extremes: true}});
   for (const geometry of ['linear', 'nonlinear']) {
     add(`static, ${geometry}`, beam(), {type: 'static', geometry, load_factors: [0.5, 1, 2]});

@@ -157,7 +157,7 @@ function axisThrough(places: Point[], log = false): Along {
 const kMarks: Record<string, { looks: string; corner: Point }> = {  // where the first corner stands from the mark's middle
   limit_max: { looks: "limit", corner: [0, -6.5] }, limit_min: { looks: "limit", corner: [0, 6.5] },
   bifurcation: { looks: "bifurcation", corner: [0, -7] }, broken_bifurcation: { looks: "broken", corner: [0, -7] },
-  flutter: { looks: "flutter", corner: [-6, -6.5] }, capacity: { looks: "limit", corner: [-6, -5] },
+  flutter: { looks: "flutter", corner: [-6, -6.5] }, capacity: { looks: "limit", corner: [-6, -5] }, first_yield: { looks: "yield", corner: [-4.5, -6] },
   softest: { looks: "softest", corner: [-5, -5] },
 };
 

@@ -1,4 +1,5 @@
 // Foundations that name a soil, as figures draw them: one foundation for the sum of the laws that the soil gives along a member.
+// And pipes in soil: one foundation for each of their reactions.
 
 import type { components } from "../api/types";
 import { at, interpolate, last } from "./geometry";
@@ -8,9 +9,10 @@ type Model = Schemas["Model"];
 type State = Schemas["State"];
 type FoundationState = State["foundations"][string];
 type SoilFoundation = Extract<Schemas["Foundation"], { soil: string }>;
+type PipeFoundation = Extract<Schemas["Foundation"], { pipe: Schemas["BuriedPipe"] }>;
 
 /** A foundation with a stiffness or law of its own. */
-export type GivenFoundation = Exclude<Schemas["Foundation"], { soil: string }>;
+export type GivenFoundation = Exclude<Schemas["Foundation"], SoilFoundation | PipeFoundation>;
 /** A model whose foundations all have a stiffness or law. */
 export type GivenModel = Omit<Model, "foundations"> & { foundations?: GivenFoundation[] };
 
@@ -19,6 +21,30 @@ const kKinds = [["", "normal"], [" axial", "tangent"], [" rotation", "rotation"]
 
 function namesSoil(foundation: Schemas["Foundation"]): foundation is SoilFoundation {
   return "soil" in foundation;
+}
+function hasPipe(foundation: Schemas["Foundation"]): foundation is PipeFoundation {
+  return "pipe" in foundation;
+}
+
+/** Whether a member runs to the right, so that what is above it lies on its left. */
+function runsToTheRight(model: Model, id: string): boolean {
+  const found = model.members.find((one) => one.id === id);
+  const x = (node: string | undefined) => model.nodes.find((one) => one.id === node)?.x ?? 0;
+  return x(found?.end) > x(found?.start);
+}
+
+/** The reactions around a pipe that a state has; without a state one foundation along the pipe. */
+function reactionsOf(model: Model, { id, member }: PipeFoundation, state: State | null | undefined): GivenFoundation[] {
+  if (!state) return [{ id, member, stiffness: 0 }];
+  const above = runsToTheRight(model, member) ? "left" : "right", below = above === "left" ? "right" : "left";
+  const pushes = { member, stiffness: 0, reaction: "compression_only" } as const;
+  const all: GivenFoundation[] = [
+    { id: `${id} axial`, member, stiffness: 0, component: "tangent" },
+    { id: `${id} lateral`, member, stiffness: 0 },
+    { id: `${id} uplift`, ...pushes, side: above },
+    { id: `${id} bearing`, ...pushes, side: below },
+  ];
+  return all.filter((one) => one.id in state.foundations);
 }
 
 /** The part of the member that is in the ground, by fractions of its length; null where the model does not say. */
@@ -76,13 +102,14 @@ function joined(layers: readonly FoundationState[][]): FoundationState {
 }
 
 /**
- * The model and the state with one foundation for each kind of curve in place of each foundation that names a soil; without a state
- * one along the buried part. They are the same objects when no foundation names a soil.
+ * The model and the state with one foundation for each kind of curve in place of each foundation that names a soil, or for each
+ * reaction around a pipe; without a state one along the buried part. They are the same objects when there are no such foundations.
  */
 export function withSoil<S extends State | null | undefined>(model: Model, state: S): { model: GivenModel; state: S } {
-  if (!model.foundations?.some(namesSoil)) return { model: model as GivenModel, state };
+  if (!model.foundations?.some((one) => namesSoil(one) || hasPipe(one))) return { model: model as GivenModel, state };
   const states = { ...(state?.foundations ?? {}) };
   const foundations = model.foundations.flatMap((foundation): GivenFoundation[] => {
+    if (hasPipe(foundation)) return reactionsOf(model, foundation, state);
     if (!namesSoil(foundation)) return [foundation];
     const { id, member } = foundation;
     const range = buriedRange(model, foundation);

@@ -38,6 +38,7 @@ function hump(scale = 1): { pointer: string; scale: number }[] {
 const kLifted = 0.0324 * 1500;  // m of the pipe whose friction one spring has, since they may lift off
 const kFriction = 0.5;          // of the pipe on the seabed, over weight and cover
 const kFrictionReach = 0.002;   // m: capacity over initial stiffness
+const kSegments = 7;            // of the tunnel lining's ring, each with its ground
 
 export const kPractice: readonly Problem[] = [
   practice("liner", {
@@ -55,6 +56,19 @@ export const kPractice: readonly Problem[] = [
       { name: "Lateral force", unit: "kN", min: 50, max: 800, log: false, step: 5, targets: [{ pointer: "/model/loads/0/force/0" }] },
       { name: "Axial load", unit: "kN", min: 0, max: 4000, log: false, step: 50, targets: [{ pointer: "/model/loads/0/force/1", scale: -1 }] },
       { name: "Bending stiffness EI", unit: "kN m²", min: 2e4, max: 1e6, log: true, targets: [{ pointer: "/model/sections/0/EI" }] },
+    ],
+  }),
+  practice("concrete_pile", {
+    heading: "Concrete pile that cracks and yields", picture: "concrete_pile_forces", choice: { kind: "critical" },
+    text: "A bored pile of reinforced concrete in sand. How much lateral force does it bear when the concrete cracks and the steel yields?",
+    sliders: [
+      { name: "Scour", unit: "m", min: 0, max: 2, log: false, step: 0.05, targets: [{ pointer: "/model/soils/0/scour/general" }] },
+      {
+        name: "Share of the resistance in a group", unit: "", min: 0.3, max: 1, log: false, step: 0.05,
+        targets: [{ pointer: "/model/foundations/0/multiplier/p" }],
+      },
+      { name: "Weight of the sand under water", unit: "kN/m³", min: 6, max: 12, log: false, step: 0.5, targets: [
+        { pointer: "/model/soils/0/layers/0/unit_weight" }] },
     ],
   }),
   practice("upheaval", {
@@ -79,6 +93,15 @@ export const kPractice: readonly Problem[] = [
     heading: "Tunnel arch", picture: "tunnel_arch_path", choice: { kind: "critical" },
     text: "What does ground that can only push add to the limit load of a shallow arch?",
     sliders: kTunnelArch.sliders,
+  }),
+  practice("tunnel_lining", {
+    heading: "Tunnel lining whose joints open", picture: "tunnel_lining_shape", choice: kAtEnd,
+    text: "A ring of seven concrete segments in ground that presses more from above. How oval does it become when its joints open?",
+    sliders: [
+      { name: "Stiffness of the ground", unit: "kN/m³", min: 1000, max: 50000, log: true, targets: foundations(kSegments, "stiffness") },
+      { name: "Thickness of the segments", unit: "mm", min: 250, max: 600, log: false, step: 10, targets: [
+        { pointer: "/model/sections/0/shape/thickness", scale: 1e-3 }] },
+    ],
   }),
   practice("column_between_walls", {
     heading: "Column between walls", picture: "column_between_walls_path", choice: { kind: "critical" },

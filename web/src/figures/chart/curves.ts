@@ -15,7 +15,7 @@ export type Monitor = Schemas["Monitor"];
 
 /** The parts of a result that a path is drawn from; a running analysis has them piece by piece. */
 export type PathResult = Pick<Result, "branches" | "critical_points" | "contact_events"> &
-  { static?: Result["static"]; summary?: Pick<Result["summary"], "softest"> };
+  { static?: Result["static"]; summary?: Pick<Result["summary"], "softest">; first_yield?: Result["first_yield"] };
 
 /** What an axis shows; `reversed` shows minus the monitor's value, and says so. */
 export type PathQuantity =

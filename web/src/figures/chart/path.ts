@@ -215,6 +215,24 @@ function softestShapes(chart: PathChart, taken: Occupancy): { marks: Shape; labe
   return { marks: group("softest-mark", mark("softest", pixel)), labels };
 }
 
+/** First yield with its load factor. */
+function yieldShapes(input: PathInput, frame: Frame, taken: Occupancy): { marks: Shape; labels: () => Shape } {
+  const found = input.result.first_yield;
+  const branch = branchesOf(input.result)[0];
+  const along = (quantity: PathQuantity): number =>
+    !found || !branch ? Number.NaN : quantity.kind === "load_factor" ? found.load_factor : valueAlong(branch, quantity, found.arc_length);
+  const at = { x: along(input.x), y: along(input.y) };
+  const pixel = pixelOf(frame, at);
+  if (!found || !Number.isFinite(at.x) || !Number.isFinite(at.y) || !inside(frame, pixel))
+    return { marks: group("yield-mark"), labels: () => group("mark-labels") };
+  takeMark(pixel, taken);
+  const labels = () => group("mark-labels", placeLabel({
+    at: pixel, className: "mark-label", leader: true, distance: 14, tolerance: 110, prefer: 7,
+    runs: [{ text: formatNumber(found.load_factor, 5), bold: true }, { text: `\u00a0${kMarkNames.first_yield}`, className: "muted" }],
+  }, taken));
+  return { marks: group("yield-mark", mark("first_yield", pixel)), labels };
+}
+
 function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; labels: () => Shape } {
   const shown = chart.marks.map((item) => ({ item, pixel: pixelOf(chart.frame, item) }))
     .filter(({ pixel }) => inside(chart.frame, pixel));
@@ -263,6 +281,7 @@ function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEn
   const marks = new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
                                    ...input.result.contact_events.map((event) => event.type)]);
   if (softestPoint(input.result)) marks.add("softest");
+  if (input.result.first_yield) marks.add("first_yield");
   const stable = new Set(curves.flatMap((curve) => [...new Set(curve.stable)]));
   if (stable.has(true)) entries.push({ text: "stable", line: "path stable" });
   if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
@@ -326,6 +345,7 @@ export function pathFigure(input: PathInput, size: Size, chart: PathChart = path
   if (chart.stiffness) taken.addLine(chart.stiffness.points, 4);
   const softest = softestShapes(chart, taken);
   const critical = criticalShapes(chart, taken);
+  const firstYield = yieldShapes(input, frame, taken);
   const empty = chart.curves.length === 0
     ? label("muted", { x: (frame.x.start + frame.x.end) / 2, y: (frame.y.start + frame.y.end) / 2 }, "middle",
             input.result.static ? "none of the load factors was reached"
@@ -335,7 +355,8 @@ export function pathFigure(input: PathInput, size: Size, chart: PathChart = path
   return figure("chart path-chart", size, title, plotArea(frame), frameShapes(frame, size),
                 clipped(frame, "plot-lines", ...shadows, chart.stiffness && stiffnessLine(chart.stiffness), ...lines),
                 chart.stiffness && stiffnessScale(chart.stiffness, frame), rowDots(chart, input), contactShapes(input, frame),
-                softest.marks, critical.marks, critical.labels(), softest.labels(), group("shadow-labels", ...shadowLabels(input, chart, taken)),
+                softest.marks, firstYield.marks, critical.marks, critical.labels(), softest.labels(), firstYield.labels(),
+                group("shadow-labels", ...shadowLabels(input, chart, taken)),
                 chosenShape(chart, input.chosen), empty, legendShape(legendEntries(input, chart.curves), size.width));
 }
 
