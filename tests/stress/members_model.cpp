@@ -70,6 +70,7 @@ class MembersDrawer {
   [[nodiscard]] BendingLaw bending_table(double EI, double moment);
   [[nodiscard]] bool may_yield(const Section& section);
   void bending_laws();
+  void strengths();
 
   Random random_;
   RandomRequest out_;
@@ -381,6 +382,21 @@ void MembersDrawer::bending_laws() {
   }
 }
 
+/// Gives sections strengths: forces of 0.01 to 10 EI / L^2, and moments of 0.001 to 1 EI / L.
+void MembersDrawer::strengths() {
+  constexpr double kRequests = 0.4;
+  constexpr double kSections = 0.7;
+  if (!random_.chance(kRequests)) return;
+  for (Section& section : model().sections) {
+    if (section.bending || !random_.chance(kSections)) continue;
+    const double bending = force_ * length_ * length_;
+    Strength strength;
+    strength.axial_force = number(force_ * random_.decades(-2.0, 1.0), random_.chance(0.2));
+    strength.bending_moment = number(bending / length_ * random_.decades(-3.0, 0.0), random_.chance(0.2));
+    section.strength = std::move(strength);
+  }
+}
+
 RandomRequest MembersDrawer::draw() {
   rigid_members();
   pretensioned_members();
@@ -393,6 +409,7 @@ RandomRequest MembersDrawer::draw() {
   joint_laws();
   drop_moments();
   bending_laws();
+  strengths();
   return out_;
 }
 

@@ -93,6 +93,9 @@ Json written(const Section& s) {
   if (s.mass) out["mass"] = written_taper(*s.mass);
   if (s.expansion) out["expansion"] = *s.expansion;
   if (s.bending) out["bending"]["law"] = written(*s.bending);
+  if (s.strength)
+    out["strength"] = {{"axial_force", written_taper(s.strength->axial_force)},
+                       {"bending_moment", written_taper(s.strength->bending_moment)}};
   return out;
 }
 

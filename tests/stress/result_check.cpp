@@ -16,6 +16,7 @@
 #include "tests/stress/inertia.h"
 #include "tests/stress/rod_state.h"
 #include "tests/stress/rod_tangent.h"
+#include "tests/stress/strength_check.h"
 
 namespace snapthrough::testing {
 namespace {
@@ -448,6 +449,7 @@ ResultCheck Check::run() {
   finite();
   if (!out_.failures.empty()) return out_;
   reactions();
+  check_strength(model_, result_, states_of_points(result_), [this](const std::string& what) { fail(what); });
   for (const Branch& b : result_.branches) branch(b);
   for (const CriticalPoint& c : result_.critical_points)
     if (c.state) state(static_cast<std::size_t>(*c.state), std::nullopt);

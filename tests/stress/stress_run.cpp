@@ -93,6 +93,7 @@ std::string features_of_members(const Model& m) {
     const Section& section = m.sections[static_cast<std::size_t>(index_of(m.sections, member.section))];
     if (std::isinf(section.EA.constant)) text += "(rigid EA)";
     if (std::isinf(section.EI.constant)) text += "(rigid EI)";
+    if (section.strength) text += "(strength)";
     if (section.bending) {
       const bool is_table = section.bending->type == BendingLaw::Type::table;
       text += is_table ? "(bending table)" : "(bending power)";
