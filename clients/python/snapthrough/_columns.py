@@ -87,7 +87,7 @@ def _states(document: Dict[str, Any]) -> Columns:
         for name, along in state["members"].items():
             count = len(along["s"])
             fixed = [[value] * count for value in (number, state["branch"], state["load_factor"], name)]
-            for column, values in zip(columns, fixed + [along[field] for field in along_members]):
+            for column, values in zip(columns, fixed + [along.get(field) or [None] * count for field in along_members]):
                 column.extend(values)
     return names + list(along_members), columns
 
