@@ -62,6 +62,15 @@ fi
 step "tests"
 ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error
 
+# The steps from here to WebAssembly use one processor each; its build takes the others.
+wasm_log=build/wasm_build.log
+wasm_build=""
+if [ "$preset" = release ]; then
+  install_packages "${WASM_PACKAGES[@]}"
+  nice -n 10 bash scripts/wasm.sh --build >"$wasm_log" 2>&1 &
+  wasm_build=$!
+fi
+
 step "schema, generated client, responses"
 bash scripts/schema.sh "build/$preset/snapthrough"
 
@@ -78,6 +87,7 @@ bash scripts/mcp_test.sh "build/$preset/snapthrough"
 
 step "WebAssembly, in Node, and in Python in WebAssembly"
 if [ "$preset" = release ]; then
+  wait "$wasm_build" || { cat "$wasm_log"; exit 1; }
   bash scripts/wasm.sh
   bash scripts/wheel.sh none
 fi
