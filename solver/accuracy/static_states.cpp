@@ -300,6 +300,11 @@ RefinedStates Refinement::run() {
 
 }  // namespace
 
+std::vector<StaticState> no_other_states(const Structure& /*structure*/,
+                                         const std::vector<StaticState>& /*states*/) {
+  return {};
+}
+
 void report_accuracy(const RefinedStates& refined, const Discretization& asked, Result& result) {
   report_mesh(*refined.structure, refined.refinements, result);
   result.diagnostics.factorizations += refined.factorizations;

@@ -31,6 +31,10 @@ struct StaticState {
 using FindStates = std::function<std::vector<StaticState>(const Structure& structure,
                                                           const std::vector<StaticState>& states)>;
 
+/// A FindStates for states that only Newton's method may find: it finds none.
+[[nodiscard]] std::vector<StaticState> no_other_states(const Structure& structure,
+                                                       const std::vector<StaticState>& states);
+
 /// States on a mesh that meets an accuracy.
 struct RefinedStates {
   std::shared_ptr<const Structure> structure;

@@ -11,6 +11,7 @@
 #include "solver/numeric/number_text.h"
 #include "solver/report/capacity.h"
 #include "solver/report/mode.h"
+#include "solver/report/result_parts.h"
 
 namespace snapthrough {
 namespace {
@@ -85,8 +86,7 @@ void report_capacity_point(const Analysis& analysis, const CapacityEnds& ends, c
     point.error_estimate = std::abs(1.0 - outcome.last.lambda / structure.scales.load / point.load_factor);
     point.arc_length = outcome.last.arc_length;
     point.negative_before = point.negative_after = outcome.last.negative;
-    for (const MonitorRow& monitor : structure.monitors)
-      point.monitors.push_back({monitor.id, monitor.row.dot(outcome.last.y)});
+    point.monitors = monitor_values(structure, outcome.last.y);
     result.critical_points.insert(result.critical_points.begin() + static_cast<std::ptrdiff_t>(count++),
                                   point);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,26 +39,33 @@ double FirstYieldSearch::excess(const PathPoint& point) const {
   return size_of(largest_utilisation(structure_, point.y, point.lambda)) - 1.0;
 }
 
-/// The first of some states between two others that is beyond first yield; empty: none is.
-std::optional<PathPoint> FirstYieldSearch::first_beyond(const PathPoint& from, const PathPoint& to) {
+/// A state with its excess.
+FirstYieldSearch::Stressed FirstYieldSearch::stressed(const PathPoint& point) const {
+  return {point, excess(point)};
+}
+
+/// The first state beyond first yield among those at the inner ends of equal parts of a step; empty: none is.
+std::optional<FirstYieldSearch::Stressed> FirstYieldSearch::first_beyond(const PathPoint& from,
+                                                                         const PathPoint& to) const {
   const Segment segment(solver_, from, to);
   for (int part = 1; part < YieldLimits::parts; ++part) {
     const double fraction = static_cast<double>(part) / YieldLimits::parts;
     PathPoint estimate = from;
     segment.interpolate(fraction, estimate);
     if (excess(estimate) < 0.0) continue;
-    std::optional<PathPoint> point = segment.point_at(fraction);
-    if (point && excess(*point) >= 0.0) return point;
+    const std::optional<PathPoint> point = segment.point_at(fraction);
+    if (!point) continue;
+    if (Stressed found = stressed(*point); found.excess >= 0.0) return found;
   }
   return std::nullopt;
 }
 
 /// The state at first yield on the path from one below it to one beyond; empty: not found.
-std::optional<PathPoint> FirstYieldSearch::on_segment(const PathPoint& from, const PathPoint& beyond) const {
-  const Segment segment(solver_, from, beyond);
+std::optional<PathPoint> FirstYieldSearch::on_segment(const Stressed& from, const Stressed& beyond) const {
+  const Segment segment(solver_, from.point, beyond.point);
   const double length = segment.length();
   const PathNorm& norm = solver_.norm();
-  const LocatedRoot root = find_root(segment, excess(from), excess(beyond),
+  const LocatedRoot root = find_root(segment, from.excess, beyond.excess,
                                      {[this](const PathPoint& point) { return excess(point); },
                                       [&](const PathPoint& a, const PathPoint& b, double least) {
                                         return least <= YieldLimits::closed ||
@@ -68,47 +76,48 @@ std::optional<PathPoint> FirstYieldSearch::on_segment(const PathPoint& from, con
 
 /// Finds the state at first yield by states at loads between theirs: where contact changes everywhere on a
 /// step, places along it may have no state.
-std::optional<PathPoint> FirstYieldSearch::by_load(PathPoint from, PathPoint beyond) const {
-  SignBracket bracket(from.lambda, excess(from), beyond.lambda, excess(beyond));
-  for (int i = 0; i < YieldLimits::most_loads && from.lambda != beyond.lambda; ++i) {
+std::optional<PathPoint> FirstYieldSearch::by_load(Stressed from, Stressed beyond) const {
+  SignBracket bracket(from.point.lambda, from.excess, beyond.point.lambda, beyond.excess);
+  for (int i = 0; i < YieldLimits::most_loads && from.point.lambda != beyond.point.lambda; ++i) {
     const double load = bracket.next(YieldLimits::least_share);
-    std::optional<PathPoint> point = point_at_load(solver_, from, beyond, load);
+    const std::optional<PathPoint> point = point_at_load(solver_, from.point, beyond.point, load);
     if (!point) return std::nullopt;
-    const double value = excess(*point);
-    bracket.take(load, value);
+    Stressed found = stressed(*point);
+    bracket.take(load, found.excess);
     const bool is_closed = bracket.width() <= kSameLoadFactor * std::abs(load);
-    if (std::abs(value) <= YieldLimits::closed || is_closed) return point;
-    (value < 0.0 ? from : beyond) = *std::move(point);
+    if (std::abs(found.excess) <= YieldLimits::closed || is_closed) return point;
+    (found.excess < 0.0 ? from : beyond) = std::move(found);
   }
   return std::nullopt;
 }
 
-/// Finds the state at first yield between one below it and one beyond.
-void FirstYieldSearch::locate(const PathPoint& from, const PathPoint& beyond) {
+/// Finds the state at first yield between one below it and one beyond, or notes their loads.
+void FirstYieldSearch::locate(const Stressed& from, const Stressed& beyond) {
+  is_over_ = true;
   std::optional<PathPoint> point = on_segment(from, beyond);
   if (!point) point = by_load(from, beyond);
-  if (!point) return;
-  const auto at = largest_utilisation(structure_, point->y, point->lambda);
-  if (!at) return;
-  const double rate = (excess(beyond) - excess(from)) / (beyond.lambda - from.lambda);
+  const auto at = point ? largest_utilisation(structure_, point->y, point->lambda) : std::nullopt;
+  if (!at) {
+    between_ = {from.point.lambda, beyond.point.lambda};
+    return;
+  }
+  const double rate = (beyond.excess - from.excess) / (beyond.point.lambda - from.point.lambda);
   found_ = {*std::move(point), *at, rate};
 }
 
 void FirstYieldSearch::add_step(const PathPoint& from, const PathPoint& to) {
   if (is_over_) return;
-  const double before = before_ ? *before_ : excess(from);
-  const double after = excess(to);
-  before_ = after;
-  if (before > 0.0) {
+  const Stressed before{from, before_ ? *before_ : excess(from)};
+  const Stressed after = stressed(to);
+  before_ = after.excess;
+  if (before.excess > 0.0) {
     is_over_ = true;  // the path begins beyond first yield
     return;
   }
-  std::optional<PathPoint> beyond;
-  if (std::max(before, after) + 1.0 > YieldLimits::near) beyond = first_beyond(from, to);
-  if (!beyond && after >= 0.0) beyond = to;
-  if (!beyond) return;
-  is_over_ = true;
-  locate(from, *beyond);
+  std::optional<Stressed> beyond;
+  if (std::max(before.excess, after.excess) + 1.0 > YieldLimits::near) beyond = first_beyond(from, to);
+  if (!beyond && after.excess >= 0.0) beyond = after;
+  if (beyond) locate(before, *beyond);
 }
 
 FirstYield FirstYieldSearch::described(const PathPoint& state, const MemberUtilisation& at) const {
@@ -117,8 +126,8 @@ FirstYield FirstYieldSearch::described(const PathPoint& state, const MemberUtili
   out.arc_length = state.arc_length;
   out.member = at.member;
   out.place = at.place;
-  for (const MonitorRow& monitor : structure_.monitors)
-    out.monitors.push_back({monitor.id, monitor.row.dot(state.y)});
+  out.place.value = std::copysign(1.0, at.place.value);
+  out.monitors = monitor_values(structure_, state.y);
   return out;
 }
 
@@ -126,9 +135,6 @@ FirstYield FirstYieldSearch::described(const PathPoint& state, const MemberUtili
 /// stress differs from the strength, and so by how much the load factor changes.
 void FirstYieldSearch::refine(const Analysis& analysis, FirstYield& yield, Result& result) {
   const Discretization& asked = analysis.discretization;
-  const FindStates no_other = [](const Structure&, const std::vector<StaticState>&) {
-    return std::vector<StaticState>();
-  };
   PathPoint point = found_->state;
   // points of a path are corrected as far as their tangents need it
   if (!solver_.correct_at_load(std::max(solver_.norm().metric().norm(point.y, 0.0), kRoundingResidual),
@@ -140,7 +146,7 @@ void FirstYieldSearch::refine(const Analysis& analysis, FirstYield& yield, Resul
   std::optional<Tried> before;
   for (int i = 0; i < YieldLimits::most_meshes; ++i) {
     const StaticState state{0, point.y, point.lambda, point.negative, point.context};
-    const RefinedStates refined = refine_states(asked, structure_, {state}, no_other);
+    const RefinedStates refined = refine_states(asked, structure_, {state}, no_other_states);
     result.diagnostics.factorizations += refined.factorizations;
     if (!refined.error || *refined.error > asked.accuracy) return;
     const StaticState& finer = refined.states.front();
@@ -168,15 +174,20 @@ void FirstYieldSearch::refine(const Analysis& analysis, FirstYield& yield, Resul
 }
 
 void FirstYieldSearch::finish(const Analysis& analysis, bool accurate, Result& result) {
+  const auto user_load = [this](double lambda) { return number(lambda / structure_.scales.load); };
+  const auto warn = [&result](const std::string& text) {
+    result.warnings.push_back({"state_accuracy", text});
+  };
+  if (between_)
+    warn("first yield lies between the load factors " + user_load((*between_)[0]) + " and " +
+         user_load((*between_)[1]) + ", where its state was not found");
   if (!found_) return;
   FirstYield yield = described(found_->state, found_->at);
-  yield.place.value = std::copysign(1.0, yield.place.value);
   const bool refines = accurate && !analysis.discretization.fixed_mesh;
   if (refines) refine(analysis, yield, result);
   if (refines && !yield.error_estimate)
-    result.warnings.push_back({"state_accuracy", "the state at first yield, load factor " +
-                                                     number(yield.load_factor) +
-                                                     ", is not confirmed by finer meshes"});
+    warn("the state at first yield, load factor " + user_load(found_->state.lambda) +
+         ", is not confirmed by finer meshes");
   result.first_yield = std::move(yield);
 }
 

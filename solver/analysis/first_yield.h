@@ -2,6 +2,7 @@
 /// @file
 /// First state of a path in which the stress of an outer fibre reaches its strength.
 
+#include <array>
 #include <optional>
 
 #include "solver/discrete/structure.h"
@@ -24,22 +25,30 @@ class FirstYieldSearch {
 
   /// Looks on a step of the path, until a state is found. The path's first state may be beyond first yield.
   void add_step(const PathPoint& from, const PathPoint& to);
+  /// Whether stresses are below the strength up to the end of the last step; false before the first one.
+  [[nodiscard]] bool is_below() const { return !is_over_ && before_.has_value(); }
   /// @brief Writes what was found: load factor, place and, on a mesh that is chosen by accuracy, the load
   /// factor on meshes as fine as the accuracy asks for, with its error estimate.
   /// @param accurate the path's result is final: the load factor is taken to finer meshes
   void finish(const Analysis& analysis, bool accurate, Result& result);
 
  private:
+  /// A state of the path.
+  struct Stressed {
+    PathPoint point;
+    double excess = 0.0;  ///< largest stress over strength, minus one
+  };
   /// The state at first yield, and the utilisation in it.
   struct Found {
     PathPoint state;
     MemberUtilisation at;
     double rate = 0.0;  ///< d size of the utilisation / d lambda
   };
-  [[nodiscard]] std::optional<PathPoint> first_beyond(const PathPoint& from, const PathPoint& to);
-  [[nodiscard]] std::optional<PathPoint> on_segment(const PathPoint& from, const PathPoint& beyond) const;
-  [[nodiscard]] std::optional<PathPoint> by_load(PathPoint from, PathPoint beyond) const;
-  void locate(const PathPoint& from, const PathPoint& beyond);
+  [[nodiscard]] Stressed stressed(const PathPoint& point) const;
+  [[nodiscard]] std::optional<Stressed> first_beyond(const PathPoint& from, const PathPoint& to) const;
+  [[nodiscard]] std::optional<PathPoint> on_segment(const Stressed& from, const Stressed& beyond) const;
+  [[nodiscard]] std::optional<PathPoint> by_load(Stressed from, Stressed beyond) const;
+  void locate(const Stressed& from, const Stressed& beyond);
   [[nodiscard]] double excess(const PathPoint& point) const;
   [[nodiscard]] FirstYield described(const PathPoint& state, const MemberUtilisation& at) const;
   void refine(const Analysis& analysis, FirstYield& yield, Result& result);
@@ -47,6 +56,8 @@ class FirstYieldSearch {
   const Structure& structure_;
   PointSolver& solver_;
   std::optional<Found> found_;
+  /// Scaled load factors between which first yield lies and was not found; empty: it was, or none is met.
+  std::optional<std::array<double, 2>> between_;
   bool is_over_;                  ///< nothing more is looked for
   std::optional<double> before_;  ///< excess at the end of the last step; empty: no step was added
 };

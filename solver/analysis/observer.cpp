@@ -22,20 +22,22 @@ void Observer::note_stress(const Eigen::VectorXd& y, double lambda, int branch) 
 
 /// Says that answers beyond first yield are those of an elastic structure.
 void Observer::warn_of_stress(Result& result) const {
-  if (!stressed_ || std::abs(stressed_->place.value) <= 1.0) return;
-  std::string text = "the stress reaches " + rounded(std::abs(stressed_->place.value)) +
-                     " of the strength in member \"" + stressed_->member +
-                     "\" at s = " + rounded(stressed_->place.s) + ", load factor " + number(stressed_load_) +
-                     " on branch " + std::to_string(stressed_branch_);
+  std::string text;
+  if (stressed_ && std::abs(stressed_->place.value) > 1.0)
+    text = "the stress reaches " + rounded(std::abs(stressed_->place.value)) +
+           " of the strength in member \"" + stressed_->member + "\" at s = " + rounded(stressed_->place.s) +
+           ", load factor " + number(stressed_load_) + " on branch " + std::to_string(stressed_branch_);
   if (result.first_yield)
-    text += "; it first reaches the strength at load factor " + number(result.first_yield->load_factor);
+    text += (text.empty() ? "the stress" : "; it") +
+            std::string(" first reaches the strength at load factor ") +
+            number(result.first_yield->load_factor);
+  if (text.empty()) return;
   result.warnings.push_back(
       {"beyond_yield", text + ": beyond, the answers are those of an elastic structure"});
 }
 
 void Observer::note(const Eigen::VectorXd& y, double lambda, int branch) {
   peaks_.note(y, lambda / structure_.scales.load);
-  note_stress(y, lambda, branch);
   if (!gauge_.raise(y, largest_)) return;
   strained_branch_ = branch;
   strained_load_ = lambda / structure_.scales.load;

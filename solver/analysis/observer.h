@@ -29,16 +29,17 @@ class Observer {
 
   /// Begins a path.
   void begin_path() { peaks_.start(); }
-  /// Records the largest strain and stress, and supports that go back, at scaled unknowns y and scaled load
+  /// Records the largest strain, and supports that go back, at scaled unknowns y and scaled load
   /// factor lambda.
   void note(const Eigen::VectorXd& y, double lambda, int branch);
+  /// Records the largest stress over strength, at scaled unknowns y and scaled load factor lambda.
+  void note_stress(const Eigen::VectorXd& y, double lambda, int branch);
   /// Adds a state to the extremes, if requested.
   void add_to_extremes(const Eigen::VectorXd& y, double lambda, int branch);
   /// Adds the reported states to the extremes, and writes extremes and warnings into the result.
   void finish(Result& result);
 
  private:
-  void note_stress(const Eigen::VectorXd& y, double lambda, int branch);
   void warn_of_stress(Result& result) const;
 
   const Analysis& analysis_;

@@ -30,14 +30,11 @@ void replace(const Analysis& analysis, const RefinedStates& refined, State& stat
 
 void refine_path_states(const Analysis& analysis, const Structure& structure,
                         const std::vector<StaticState>& states, const std::stop_token& stop, Result& result) {
-  const FindStates no_other = [](const Structure&, const std::vector<StaticState>&) {
-    return std::vector<StaticState>();
-  };
   std::string doubts;
   std::size_t doubtful = 0;
   for (const StaticState& asked : states) {
     if (stop.stop_requested()) return;
-    const RefinedStates refined = refine_states(analysis.discretization, structure, {asked}, no_other);
+    const RefinedStates refined = refine_states(analysis.discretization, structure, {asked}, no_other_states);
     result.diagnostics.factorizations += refined.factorizations;
     State& state = result.states[asked.row];
     // a state that stays was judged when it was recorded

@@ -17,13 +17,6 @@
 
 namespace snapthrough {
 
-std::vector<NamedValue> Recorder::monitors(const PathPoint& point) const {
-  std::vector<NamedValue> out;
-  out.reserve(structure_.monitors.size());
-  for (const MonitorRow& monitor : structure_.monitors) out.push_back({monitor.id, monitor.row.dot(point.y)});
-  return out;
-}
-
 double Recorder::user_load(const PathPoint& point) const { return point.lambda / structure_.scales.load; }
 
 std::optional<int> Recorder::add_state(const PathPoint& point, double most) {
@@ -64,6 +57,7 @@ void Recorder::add_point(const PathPoint& point) {
     static_cast<void>(add_state(point));
   ++points_;
   observer_.note(point.y, point.lambda, branch_);
+  if (branch_ != 0 || !yield_.is_below()) observer_.note_stress(point.y, point.lambda, branch_);
   if (branch_ == 0 && !result_.summary.critical_load_factor)
     observer_.add_to_extremes(point.y, point.lambda, branch_);
   if (branch_ == 0 && !analysis_.start) softest_.set_unloaded(point);
@@ -219,7 +213,8 @@ void Recorder::on_point(const PathPoint& point) {
   add_point(point);
   const int step = branch_points_++;
   if (hooks_.on_point)
-    hooks_.on_point({branch_, step, user_load(point), point.arc_length, point.negative, monitors(point)});
+    hooks_.on_point({branch_, step, user_load(point), point.arc_length, point.negative,
+                     monitor_values(structure_, point.y)});
   if (hooks_.on_progress) hooks_.on_progress({branch_, step, user_load(point), point.negative});
 }
 

@@ -77,7 +77,6 @@ class Recorder final : public PathObserver {
   /// @param most imbalance() of an equilibrium
   /// @return its index; empty for a state that is no equilibrium
   std::optional<int> add_state(const PathPoint& point, double most = StateLimits::imbalance);
-  [[nodiscard]] std::vector<NamedValue> monitors(const PathPoint& point) const;
   [[nodiscard]] double user_load(const PathPoint& point) const;
 
   const ResolvedModel& model_;

@@ -132,6 +132,7 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative, const P
     if (const auto found = probe_->at(y, lambda)) row.frequencies = probe_->in_units(*found);
   if (visit_) visit_(index, y, lambda);
   observer_.note(y, lambda, 0);
+  observer_.note_stress(y, lambda, 0);
   if (wants_state(index)) {
     row.state = make_state(structure_, y, lambda, analysis_.output);
     row.state->load_factor = analysis_.load_factors[index];

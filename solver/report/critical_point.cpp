@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/report/result_parts.h"
+
 namespace snapthrough {
 namespace {
 
@@ -39,9 +41,7 @@ CriticalPoint critical_point(const Structure& structure, const CriticalEvent& ev
 
 void set_values(const Structure& structure, const CriticalEvent& event, CriticalPoint& point) {
   point.load_factor = event.point.lambda / structure.scales.load;
-  point.monitors.clear();
-  for (const MonitorRow& monitor : structure.monitors)
-    point.monitors.push_back({monitor.id, monitor.row.dot(event.point.y)});
+  point.monitors = monitor_values(structure, event.point.y);
   point.monitor_rate = monitor_rate(structure, event);
 }
 

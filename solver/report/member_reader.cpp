@@ -112,18 +112,40 @@ MemberPeaks MemberReader::peaks(const MemberState& known) const {
           {}};
 }
 
-std::optional<Utilisation> MemberReader::largest_utilisation(const MemberState& known) const {
-  if (strength() == nullptr) return std::nullopt;
+Utilisation MemberReader::largest_utilisation(const MemberState& known) const {
   const auto values_at = [this](const MeshPlace& place) { return utilisations(place); };
   const auto values_at_s = [&](double s) { return values_at(place(s)); };
   const auto known_values = [&known](std::size_t i) {
     return std::array{known.utilisation_left[i], known.utilisation_right[i]};
   };
   const PeakSearch<2> found = search<2>(bends_of(*strength()), known.s, known_values, values_at);
-  std::optional<Utilisation> largest;
+  Utilisation largest;
   for (const Fibre fibre : {Fibre::left, Fibre::right}) {
     const PeakRange range = found.range(static_cast<std::size_t>(fibre), values_at_s);
-    for (const Peak& peak : {range.max, range.min}) raise({peak.value, peak.s, fibre}, largest);
+    for (const Peak& peak : {range.max, range.min})
+      if (const Utilisation one{peak.value, peak.s, fibre}; exceeds(one, largest)) largest = one;
+  }
+  return largest;
+}
+
+Utilisation MemberReader::sampled_utilisation() const {
+  const std::vector<double> bends = bends_of(*strength());
+  const int first = structure_.mesh.first[static_cast<std::size_t>(member_)];
+  Utilisation largest;
+  const auto take = [&](const MeshPlace& place) {
+    const auto [left, right] = utilisations(place);
+    const double s = s_of(place);
+    for (const Utilisation& one : {Utilisation{left, s, Fibre::left}, Utilisation{right, s, Fibre::right}})
+      if (exceeds(one, largest)) largest = one;
+  };
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const int element = first + static_cast<int>(i);
+    if (i == 0) take({element, 0.0});
+    for (const double xi : {0.5, 1.0}) take({element, xi});
+    for (const double xi : breaks_of(i, bends)) {
+      take({element, xi - kOnePlace});
+      take({element, xi});
+    }
   }
   return largest;
 }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "solver/discrete/element_reader.h"
@@ -46,9 +45,12 @@ class MemberReader {
   [[nodiscard]] const Strength* strength() const;
   /// Stress over strength in the left and right outer fibre. @pre the section has a strength
   [[nodiscard]] std::array<double, 2> utilisations(const MeshPlace& place) const;
-  /// @brief Largest stress over strength along the member in size; empty: its section has no strength.
+  /// @brief Largest stress over strength along the member in size. @pre the section has a strength
   /// @param known stresses over strength at places of the member, ascending; may have none
-  [[nodiscard]] std::optional<Utilisation> largest_utilisation(const MemberState& known) const;
+  [[nodiscard]] Utilisation largest_utilisation(const MemberState& known) const;
+  /// Largest stress over strength in size at the start of the member, at the middles and ends of its
+  /// elements, and at places inside at which forces jump or turn. @pre the section has a strength
+  [[nodiscard]] Utilisation sampled_utilisation() const;
 
  private:
   struct Element {

@@ -8,6 +8,13 @@
 
 namespace snapthrough {
 
+std::vector<NamedValue> monitor_values(const Structure& structure, const Eigen::VectorXd& y) {
+  std::vector<NamedValue> out;
+  out.reserve(structure.monitors.size());
+  for (const MonitorRow& monitor : structure.monitors) out.push_back({monitor.id, monitor.row.dot(y)});
+  return out;
+}
+
 void add_statistics(const PathStatistics& statistics, Result& result) {
   Diagnostics& d = result.diagnostics;
   d.steps += statistics.steps;

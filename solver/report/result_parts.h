@@ -2,7 +2,9 @@
 /// @file
 /// Parts of results that all kinds of analysis write.
 
+#include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "solver/discrete/structure.h"
 #include "solver/events/critical_event.h"
@@ -13,6 +15,9 @@
 #include "solver/result.h"
 
 namespace snapthrough {
+
+/// Values of the monitors, in the model's units, at scaled unknowns y.
+[[nodiscard]] std::vector<NamedValue> monitor_values(const Structure& structure, const Eigen::VectorXd& y);
 
 /// @brief Mode of a critical point at the requested points of each member.
 /// @param problem problem of `structure`; factorised again

@@ -1,6 +1,7 @@
 #include "solver/report/strength.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "solver/discrete/layer_state.h"
@@ -11,14 +12,20 @@
 namespace snapthrough {
 namespace {
 
+/// Stress over strength at sampled places from which a member is searched between them. Between those places
+/// forces are smooth, so that a stress that is twice as large there would need a mesh that does not resolve
+/// it.
+constexpr double kNear = 0.5;
+
 /// Keeps the larger of two in size.
-void keep(const std::string& member, const std::optional<Utilisation>& place,
-          std::optional<MemberUtilisation>& largest) {
-  if (!place) return;
-  std::optional<Utilisation> value;
-  if (largest) value = largest->place;
-  raise(*place, value);
-  if (!largest || value->value != largest->place.value) largest = {member, *value};
+void keep(const std::string& member, const Utilisation& place, std::optional<MemberUtilisation>& largest) {
+  if (!largest || exceeds(place, largest->place)) largest = {member, place};
+}
+
+/// Largest stress over strength of a member whose section has a strength.
+Utilisation utilisation_of(const MemberReader& reader) {
+  const Utilisation sampled = reader.sampled_utilisation();
+  return std::abs(sampled.value) < kNear ? sampled : reader.largest_utilisation({});
 }
 
 void keep_rods(const Structure& structure, const Eigen::VectorXd& y,
@@ -46,7 +53,7 @@ std::optional<MemberUtilisation> largest_utilisation(const Structure& structure,
   for (std::size_t m = 0; m < model.members.size(); ++m)
     if (model.section_of(model.members[m]).strength)
       keep(model.members[m].id,
-           MemberReader(structure, y, lambda, layers, static_cast<int>(m)).largest_utilisation({}), largest);
+           utilisation_of(MemberReader(structure, y, lambda, layers, static_cast<int>(m))), largest);
   keep_rods(structure, y, largest);
   return largest;
 }

@@ -21,8 +21,8 @@ struct MemberUtilisation {
 /// Whether a section that a member has is given a strength.
 [[nodiscard]] bool has_strength(const ResolvedModel& model);
 
-/// @brief Largest stress over strength in a state, between the places of its lists too; empty: no member has
-/// a strength.
+/// @brief Largest stress over strength in a state; empty: no member has a strength. From half of the strength
+/// on it is the largest along the members, below that the largest at the middles and ends of elements.
 /// @param y scaled unknowns, in equilibrium with the scaled load factor lambda
 [[nodiscard]] std::optional<MemberUtilisation> largest_utilisation(const Structure& structure,
                                                                    const Eigen::VectorXd& y, double lambda);

@@ -16,9 +16,8 @@ std::array<double, 2> fibre_utilisations(const Strength& strength, double fracti
   return out;
 }
 
-void raise(const Utilisation& value, std::optional<Utilisation>& largest) {
-  if (!largest || std::abs(value.value) > Rounding::first_of_equal * std::abs(largest->value))
-    largest = value;
+bool exceeds(const Utilisation& value, const Utilisation& other) {
+  return std::abs(value.value) > Rounding::first_of_equal * std::abs(other.value);
 }
 
 }  // namespace snapthrough

@@ -3,7 +3,6 @@
 /// Stress over strength in the outer fibres of a section.
 
 #include <array>
-#include <optional>
 
 #include "solver/model/model.h"
 #include "solver/result.h"
@@ -17,7 +16,7 @@ namespace snapthrough {
 /// @param axial_force, bending_moment in the model's units
 [[nodiscard]] std::array<double, 2> fibre_utilisations(const Strength& strength, double fraction,
                                                        double axial_force, double bending_moment);
-/// Replaces `largest` by a value that is larger in size, by more than rounding.
-void raise(const Utilisation& value, std::optional<Utilisation>& largest);
+/// Whether a stress over strength is larger in size than another one, by more than rounding.
+[[nodiscard]] bool exceeds(const Utilisation& value, const Utilisation& other);
 
 }  // namespace snapthrough

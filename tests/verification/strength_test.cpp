@@ -60,7 +60,8 @@ double yield_load(double e, double force, double moment, double most) {
   return root([&](double P) { return moment_in_the_middle(P, e) / moment + P / force - 1.0; }, 1e-6, most);
 }
 
-/// The secant formula, exact in displacements: compression yields first, on the inner side.
+/// A column with an eccentric load yields by compression, in the middle, on the side to which it bends. The
+/// expected load is that of the elastica, whose limit for small displacements is the secant formula.
 TEST(FirstYield, OfAColumnWithEccentricLoad) {
   constexpr double e = 0.02;
   const Strength strength{40.0, 0.5};
