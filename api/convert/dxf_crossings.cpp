@@ -80,7 +80,8 @@ Common circles(const Circle& one, const Circle& other, double tolerance) {
   }
   const bool touch = overlap <= tolerance;
   const double along = 0.5 * (d + (one.radius - other.radius) * ((one.radius + other.radius) / d));
-  // the common chord, whose left normal points to the other centre
+  // both circles cross on their common chord, a line at the distance `along` from the centre of the first
+  // one; its left normal points to the centre of the second one
   return on_line(one, touch ? std::copysign(one.radius, along) : along, {dy / d, -dx / d}, touch);
 }
 

@@ -139,4 +139,16 @@ std::string text_or(const Field& object, std::string_view key, std::string_view 
   return found ? found->text() : std::string(otherwise);
 }
 
+std::array<double, 2> range_or_all(const Field& object) {
+  const std::optional<Field> range = object.find("range");
+  if (!range) {
+    return {0, 1};
+  }
+  const std::vector<double> ends = range->numbers(2);
+  if (!(ends[0] >= 0 && ends[0] < ends[1] && ends[1] <= 1)) {
+    range->fail("must be two increasing fractions from 0 to 1");
+  }
+  return {ends[0], ends[1]};
+}
+
 }  // namespace snapthrough::api::plot

@@ -2,6 +2,7 @@
 /// @file
 /// Reader of unchecked JSON documents; an invalid value throws PlotError with the value's JSON Pointer.
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -64,5 +65,9 @@ class Field {
 [[nodiscard]] double number_or(const Field& object, std::string_view key, double otherwise);
 /// Returns the text of a member of an object, or `otherwise` when the member is absent or null.
 [[nodiscard]] std::string text_or(const Field& object, std::string_view key, std::string_view otherwise);
+
+/// Returns the optional `range` of an object, two increasing fractions of a member's length; all of it when
+/// absent.
+[[nodiscard]] std::array<double, 2> range_or_all(const Field& object);
 
 }  // namespace snapthrough::api::plot

@@ -39,6 +39,15 @@ struct SupportLaw {
   std::shared_ptr<const ReactionCurve> form;  ///< owns what the laws of the curves refer to
 };
 
+/// How curves of laws are drawn.
+struct LawDrawing {
+  static constexpr double room = 1.2;  ///< share of the largest reach of the curves that is drawn
+  static constexpr double free =
+      0.25;                          ///< share of it on the side to which a one-sided support does not react
+  static constexpr int pieces = 60;  ///< parts of each curve over its reach, and over what is drawn
+  static constexpr double tolerance = 0.05;  ///< pixels; deviation of a thinned line
+};
+
 /// @brief Reads the law of a spring, foundation or release.
 /// @throws PlotError when it breaks a rule of docs/requests.md, "Laws"
 [[nodiscard]] ReactionLaw read_reaction_law(const Field& law);

@@ -13,10 +13,6 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr double kRoom = 1.2;          // share of the largest reach of the curves that is drawn
-constexpr double kFree = 0.25;         // share of it on the side to which a one-sided support does not react
-constexpr int kPieces = 60;            // parts of each curve over its reach, and over what is drawn
-constexpr double kTolerance = 0.05;    // pixels; deviation of a thinned line
 constexpr std::size_t kMostDots = 40;  // more points of a table are crowded
 constexpr double kCaption = 18;        // pixels; height of the caption above the legend
 constexpr const char* kNoBreak = "\u00a0";
@@ -42,8 +38,8 @@ std::vector<double> senses_of(const SupportLaw& law) {
 /// Returns the displacements beyond the gap at which a curve is computed: close where it bends.
 std::vector<double> samples_of(const LawCurve& curve, double reach) {
   std::vector<double> all = curve.ends;
-  for (int i = 0; i <= kPieces; ++i) {
-    const double share = static_cast<double>(i) / kPieces;
+  for (int i = 0; i <= LawDrawing::pieces; ++i) {
+    const double share = static_cast<double>(i) / LawDrawing::pieces;
     all.push_back(share * reach);
     all.push_back(share * share * curve.reach);
   }
@@ -71,7 +67,7 @@ DrawnCurve drawn_curve(const SupportLaw& law, const LawCurve& curve, double reac
   };
   std::vector<LawPoint> half;
   if (senses.size() == 1) {
-    half.push_back({-kFree * (law.gap + reach), 0});
+    half.push_back({-LawDrawing::free * (law.gap + reach), 0});
   }
   for (const double w : samples_of(curve, reach)) {
     half.push_back(point_at(w));
@@ -97,7 +93,7 @@ DrawnCurve drawn_curve(const SupportLaw& law, const LawCurve& curve, double reac
 std::vector<DrawnCurve> drawn_curves(const SupportLaw& law) {
   double reach = 0;
   for (const LawCurve& curve : law.curves) {
-    reach = std::max(reach, kRoom * curve.reach);
+    reach = std::max(reach, LawDrawing::room * curve.reach);
   }
   std::vector<DrawnCurve> drawn;
   drawn.reserve(law.curves.size());
@@ -158,7 +154,7 @@ Shape curve_shape(const DrawnCurve& curve, std::size_t number, const Frame& fram
   for (const LawPoint& point : curve.points) {
     pixels.push_back(place(frame, point.x, point.y));
   }
-  std::vector<Shape> shapes{path("series-line", thinned_points(pixels, kTolerance))};
+  std::vector<Shape> shapes{path("series-line", thinned_points(pixels, LawDrawing::tolerance))};
   for (const LawPoint& dot : curve.dots) {
     shapes.push_back(circle("series-dot", place(frame, dot.x, dot.y), 2.4));
   }

@@ -55,18 +55,6 @@ std::string sense_in_title(const Field& field, const std::string& reaction) {
          (reaction == "tension_only" ? "tension only" : "compression only");
 }
 
-std::array<double, 2> read_range(const Field& field) {
-  const std::optional<Field> range = field.find("range");
-  if (!range) {
-    return {0, 1};
-  }
-  const std::vector<double> ends = range->numbers(2);
-  if (!(ends[0] >= 0 && ends[0] < ends[1] && ends[1] <= 1)) {
-    range->fail("must be two increasing fractions from 0 to 1");
-  }
-  return {ends[0], ends[1]};
-}
-
 /// Reads a law, or a stiffness as a linear law; nullopt where there is neither, or a rigid foundation.
 std::optional<ReactionLaw> read_law_or_stiffness(const Field& field) {
   if (const std::optional<Field> law = field.find("law")) {
@@ -92,7 +80,7 @@ std::optional<ReadFoundation> read_one(const Field& field,
     field.at("member").fail("must be the id of a member");
   }
   ReadFoundation read;
-  read.source = {field.at("id").text(), *given, law_in_units_of_model(*given), 0, read_range(field)};
+  read.source = {field.at("id").text(), *given, law_in_units_of_model(*given), 0, range_or_all(field)};
   read.member = member->second;
   read.reaction = read_reaction_sense(field);
   std::tie(read.gap, read.gap_varies) = read_gap_of_law(field, read.reaction);

@@ -12,7 +12,8 @@
 
 namespace snapthrough::api::plot {
 
-/// The supports whose laws are asked for, and what is known of the soil that gives some.
+/// Which supports of a model a figure shows the laws of, with the foundations in soil, from which reading
+/// makes several foundations each.
 struct LawChoice {
   std::optional<std::string> id;               ///< nullopt: all
   bool is_soil = false;                        ///< `id` is that of a foundation in soil, which gives others

@@ -11,10 +11,6 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr double kRoom = 1.2;        // share of the largest reach of the laws that is drawn
-constexpr double kFree = 0.25;       // share of it on the side to which a one-sided support does not react
-constexpr int kPieces = 60;          // parts of each curve over its reach, and over what is drawn
-constexpr double kTolerance = 0.05;  // pixels; deviation of a thinned line
 constexpr std::size_t kColours = 9;  // classes depth-0 to depth-8 of looks.cpp
 constexpr double kApart = 1e-9;      // relative to what is drawn: displacements that differ by less are one
 constexpr double kFallen = 1e-6;     // relative to the peak: a smaller fall is rounding
@@ -155,8 +151,8 @@ std::vector<double> samples_of(const LawSum& sum, double reach) {
     all.insert(all.end(), part.ends.begin(), part.ends.end());
   }
   const double own = sum.reach();
-  for (int i = 0; i <= kPieces; ++i) {
-    const double share = static_cast<double>(i) / kPieces;
+  for (int i = 0; i <= LawDrawing::pieces; ++i) {
+    const double share = static_cast<double>(i) / LawDrawing::pieces;
     all.push_back(share * reach);
     all.push_back(share * share * own);
     all.push_back(2 * share * own);
@@ -211,7 +207,7 @@ void place_law(const LawPlace& place, bool both, double reach, DrawnLaw& drawn) 
     }
   }
   if (place.reaction != "bilateral") {
-    drawn.points.insert(drawn.points.begin(), Point{-sense * kFree * (place.gap + reach), 0});
+    drawn.points.insert(drawn.points.begin(), Point{-sense * LawDrawing::free * (place.gap + reach), 0});
   } else if (both) {
     std::vector<Point> other(drawn.points.rbegin(), drawn.points.rend());
     drawn.other_flat.assign(drawn.flat.rbegin(), drawn.flat.rend());
@@ -298,7 +294,7 @@ Shape curve_shape(const LawPanel& panel, std::size_t i, Occupancy& taken) {
       pixels.push_back(place(panel.frame, point.x, point.y));
     }
     taken.add_line(pixels);
-    shapes.push_back(path(looks, thinned_points(pixels, kTolerance)));
+    shapes.push_back(path(looks, thinned_points(pixels, LawDrawing::tolerance)));
   };
   add("law-line", law.points);
   for (const std::vector<Point>* flat : {&law.flat, &law.other_flat}) {
@@ -384,7 +380,7 @@ LawPanel law_panel(const LawGroup& group, const Units& units, Size size) {
   bool both = false;
   bool any_bilateral = false;
   for (const LawPlace& place : chosen) {
-    reach = std::max(reach, kRoom * group.sum_at(place).reach());
+    reach = std::max(reach, LawDrawing::room * group.sum_at(place).reach());
     both = both || place.reaction == "tension_only";
     any_bilateral = any_bilateral || place.reaction == "bilateral";
   }

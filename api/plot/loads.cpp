@@ -121,15 +121,15 @@ void point_arrow(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
 
 /// Draws arrows along a member. `pull` returns the load at a place and a fraction in model axes, relative to
 /// the largest load. Returns the highest tail.
-std::optional<Pixel> line_arrows(const DrawnMember& member, std::pair<double, double> range,
+std::optional<Pixel> line_arrows(const DrawnMember& member, const std::array<double, 2>& range,
                                  const LoadScene& all, const std::function<Point(const Place&, double)>& pull,
                                  Arrows& arrows) {
   const double length = member.s.back();
-  const double pixels = (range.second - range.first) * length * all.view.scale;
+  const double pixels = (range[1] - range[0]) * length * all.view.scale;
   const double count = std::clamp(std::round(pixels / kLineSpacing), 2.0, 60.0);
   std::optional<Pixel> highest;
   for (double i = 0; i <= count; ++i) {
-    const double fraction = range.first + (range.second - range.first) * i / count;
+    const double fraction = range[0] + (range[1] - range[0]) * i / count;
     const Place place = place_on(member, fraction * length);
     const Point q = pull(place, fraction);
     const Pixel tip = to_pixel(all.view, place.moved);

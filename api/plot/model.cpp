@@ -31,18 +31,6 @@ Location read_location(const Field& field) {
   return {"", field.at("member").text(), field.at("fraction").number()};
 }
 
-std::pair<double, double> read_range(const Field& field) {
-  const std::optional<Field> range = field.find("range");
-  if (!range) {
-    return {0, 1};
-  }
-  const std::vector<double> ends = range->numbers(2);
-  if (!(ends[0] >= 0 && ends[0] < ends[1] && ends[1] <= 1)) {
-    range->fail("must be two increasing fractions from 0 to 1");
-  }
-  return {ends[0], ends[1]};
-}
-
 bool is_one_sided(const Field& field) { return text_or(field, "reaction", "bilateral") != "bilateral"; }
 
 /// One-sided members are hinged at both ends.
@@ -149,7 +137,7 @@ ModelFoundation read_foundation(const Field& field) {
       }
     }
   }
-  foundation.range = read_range(field);
+  foundation.range = range_or_all(field);
   return foundation;
 }
 
@@ -215,7 +203,7 @@ ModelLoad read_load(const Field& field) {
     return load;
   }
   load.at.member = field.at("member").text();
-  load.range = read_range(field);
+  load.range = range_or_all(field);
   if (type == "distributed") {
     load.type = ModelLoad::Type::distributed;
     read_force(field.at("force"), load);

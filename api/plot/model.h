@@ -55,11 +55,11 @@ struct ModelFoundation {
   std::optional<Point> direction;  ///< unit vector into the medium; nullopt: along the normal
   bool one_sided = false;
   bool compression_only = false;
-  double gap = 0;                            ///< the largest along the member
-  Along<double> gap_along;                   ///< empty: `gap` everywhere
-  std::shared_ptr<const Surface> surface;    ///< surface of the medium; null: beside the member
-  std::vector<Point> line;                   ///< points of that surface, where it has points
-  std::pair<double, double> range = {0, 1};  ///< loaded part, as fractions of the member's length
+  double gap = 0;                          ///< the largest along the member
+  Along<double> gap_along;                 ///< empty: `gap` everywhere
+  std::shared_ptr<const Surface> surface;  ///< surface of the medium; null: beside the member
+  std::vector<Point> line;                 ///< points of that surface, where it has points
+  std::array<double, 2> range = {0, 1};    ///< loaded part, as fractions of the member's length
 };
 
 struct ModelLoad {
@@ -72,7 +72,7 @@ struct ModelLoad {
   double moment = 0;
   double value = 0;  ///< pressure, positive when it pushes from `side`
   double side = 1;   ///< pressure acts on the left (1) or right (-1) side
-  std::pair<double, double> range = {0, 1};
+  std::array<double, 2> range = {0, 1};
   std::string per;  ///< reference length of a distributed load: "length", "horizontal", "vertical"
   /// [fraction, x component, y component] of a force, [fraction, pressure, 0] of a pressure that varies;
   /// empty: the same everywhere. `force` or `value` is then the largest.

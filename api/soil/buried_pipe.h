@@ -27,12 +27,12 @@ inline constexpr double kLargestPipeDepth = 10.0;
 
 /// @brief Sand around a pipe.
 ///
-///   axial    t = pi D H gamma (1 + K0)/2 tan(f phi)
-///   lateral  p = N_qh gamma H D, N_qh = a + b x + c x^2 + d x^3 + e x^4 with x = H/D, whose coefficients are
-///            linear in phi between those of the table, each 5 degrees from 20 to 45
-///   uplift   q = N_qv gamma H D, N_qv = min(phi/44 H/D, N_q), phi in degrees
-///   bearing  q = N_q gamma H D + N_gamma gamma_t D^2/2, N_q = exp(pi tan(phi)) tan^2(45 + phi/2),
-///            N_gamma = exp(0.18 phi - 2.5), phi in degrees
+/// - axial: t = pi D H gamma (1 + K0)/2 tan(f phi)
+/// - lateral: p = N_qh gamma H D, N_qh = a + b x + c x^2 + d x^3 + e x^4 with x = H/D, whose coefficients are
+///   linear in phi between those of the table, each 5 degrees from 20 to 45
+/// - uplift: q = N_qv gamma H D, N_qv = min(phi/44 H/D, N_q), phi in degrees
+/// - bearing: q = N_q gamma H D + N_gamma gamma_t D^2/2, N_q = exp(pi tan(phi)) tan^2(45 + phi/2),
+///   N_gamma = exp(0.18 phi - 2.5), phi in degrees
 struct PipeSand {
   double phi = 0.0;             ///< friction angle in degrees
   double coating_factor = 0.0;  ///< f: friction angle of pipe and soil over phi
@@ -42,10 +42,11 @@ struct PipeSand {
 
 /// @brief Clay around a pipe.
 ///
-///   axial    t = pi D alpha c
-///   lateral  p = N_ch c D, N_ch = 6.752 + 0.065 x - 11.063/(x + 1)^2 + 7.119/(x + 1)^3 with x = H/D, at most
-///   9 uplift   q = N_cv c D, N_cv = min(2 H/D, 10) bearing  q = N_c c D + gamma H D + exp(-2.5) gamma_t
-///   D^2/2, N_c = 2 + pi
+/// - axial: t = pi D alpha c
+/// - lateral: p = N_ch c D, N_ch = 6.752 + 0.065 x - 11.063/(x + 1)^2 + 7.119/(x + 1)^3 and at most 9, with
+///   x = H/D
+/// - uplift: q = N_cv c D, N_cv = min(2 H/D, 10)
+/// - bearing: q = N_c c D + gamma H D + exp(-2.5) gamma_t D^2/2, N_c = 2 + pi
 struct PipeClay {
   double Su = 0.0;        ///< c
   double adhesion = 0.0;  ///< alpha: axial friction over c

@@ -16,12 +16,14 @@
 #include "api/read_soils.h"
 #include "api/soil/equivalent_depth.h"
 #include "api/soil/ultimate_resistance.h"
+#include "tests/api/straight_lines.h"
 #include "tests/findings.h"
 
 namespace snapthrough::api {
 namespace {
 
 using nlohmann::json;
+using snapthrough::testing::interpolated;
 using snapthrough::testing::is_finding;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -62,18 +64,6 @@ json foundations_of(const json& model) {
   }
   EXPECT_THAT(report.findings(), IsEmpty());
   return out;
-}
-
-/// Returns the value of pairs by straight lines, constant beyond.
-double interpolated(const json& pairs, double at) {
-  for (std::size_t i = 1; i < pairs.size(); ++i) {
-    const double a = pairs[i - 1][0], b = pairs[i][0];
-    if (at <= b) {
-      const double t = std::clamp((at - a) / (b - a), 0.0, 1.0);
-      return (1.0 - t) * pairs[i - 1][1].get<double>() + t * pairs[i][1].get<double>();
-    }
-  }
-  return pairs.back()[1];
 }
 
 /// Returns the largest force of the points of a table.

@@ -13,12 +13,14 @@
 
 #include "api/list_foundations.h"
 #include "api/soil/curve_depths.h"
+#include "tests/api/straight_lines.h"
 #include "tests/findings.h"
 
 namespace snapthrough::api {
 namespace {
 
 using nlohmann::json;
+using snapthrough::testing::interpolated;
 using snapthrough::testing::is_finding;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -42,18 +44,6 @@ ListedSupports listed(const json& model) {
   ListedSupports out = list_foundations(Value(model, PointerPath("/model"), report));
   EXPECT_THAT(report.findings(), IsEmpty());
   return out;
-}
-
-/// Returns the value of pairs [abscissa, value] by straight lines, constant beyond.
-double interpolated(const json& pairs, double at) {
-  for (std::size_t i = 1; i < pairs.size(); ++i) {
-    const double a = pairs[i - 1][0], b = pairs[i][0];
-    if (at <= b) {
-      const double t = std::clamp((at - a) / (b - a), 0.0, 1.0);
-      return (1.0 - t) * pairs[i - 1][1].get<double>() + t * pairs[i][1].get<double>();
-    }
-  }
-  return pairs.back()[1];
 }
 
 /// Returns the sum of the reactions of tables of one component at a depth.

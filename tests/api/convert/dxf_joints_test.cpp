@@ -1,5 +1,5 @@
-/// Segments of drawings that are drawn twice, ends that are joined at a distance or lie on a segment, and
-/// what only looks joined. Expected values are the geometry that was drawn.
+/// Drawings with segments that are drawn twice, with ends that are joined at a distance or lie on another
+/// segment, and with ends that only look joined. Nodes, members and warnings are expected by hand.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -424,8 +424,8 @@ TEST(DxfCrossings, AreThoseOfManyChords) {
   EXPECT_GT(all, 100);
 }
 
-// The arc and the line go out from (0, 2) in almost one direction; the line leaves the circle again 4e-4 from
-// there, after it was 1e-8 inside.
+// An arc of radius 2 and a line both end at (0, 2), where they have almost one direction: the line is inside
+// of the circle by 1e-8 at most and leaves it 4e-4 from there, which is no crossing at the tolerance 1e-6.
 TEST(DxfCrossings, SmoothContinuationsAreNone) {
   EXPECT_THAT(converted({arc(0, 0, 2, 0, 90), line(0, 2, 2, 1.9998)}, false, 1e-6).warnings, IsEmpty());
 }

@@ -235,8 +235,9 @@ TEST(LawsFigure, FallingLawsHaveTheirPeakAndResidualMarked) {
   EXPECT_THAT(SvgReader(grows).texts(), Not(Contains("peak")));
 }
 
-/// A hump between two points of tables: p = 100 w (linear part) - falling tanh has none, so the peak of
-/// P tanh(k w / P) with a table that falls from 40 at 0.01 to 0 at 0.05 is where cosh^2 = k / 1000.
+/// The sum of P tanh(k w / P) and a table that falls from 40 at w = 0.01 to 0 at w = 0.05, by 1000 per unit
+/// of w, has its peak between the table's points, where the slope k / cosh^2(k w / P) of the first law is
+/// 1000.
 TEST(LawsFigure, APeakBetweenThePointsOfTablesIsFound) {
   const double k = 4000;
   const double P = 60;
