@@ -226,6 +226,10 @@ static void read(const Value& value, Member& out) {
   if (const auto release = in.find("release")) {
     read_release(*release, out);
   }
+  in.optional("cable", out.cable);
+  if (out.cable) {
+    out.reaction = Reaction::tension_only;
+  }
   in.optional("reaction", out.reaction);
   in.optional("pretension", out.pretension);
   in.finish();

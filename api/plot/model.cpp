@@ -33,9 +33,16 @@ Location read_location(const Field& field) {
 
 bool is_one_sided(const Field& field) { return text_or(field, "reaction", "bilateral") != "bilateral"; }
 
-/// One-sided members are hinged at both ends.
+bool is_cable(const Field& member) {
+  const std::optional<Field> cable = member.find("cable");
+  return cable && cable->json() == true;
+}
+/// Whether a member is a rod: one-sided, or a cable.
+bool is_rod(const Field& member) { return is_one_sided(member) || is_cable(member); }
+
+/// Rods are hinged at both ends.
 bool has_hinge(const Field& member, std::string_view end) {
-  if (is_one_sided(member)) {
+  if (is_rod(member)) {
     return true;
   }
   const std::optional<Field> release = member.find("release");
@@ -61,7 +68,8 @@ ModelMember read_member(const Field& field, const Model& model) {
   member.axis = member_axis(field, field.find("curve"), from, to);
   member.hinge_at_start = has_hinge(field, "start");
   member.hinge_at_end = has_hinge(field, "end");
-  member.one_sided = is_one_sided(field);
+  member.one_sided = is_rod(field);
+  member.hangs = is_cable(field);
   return member;
 }
 

@@ -30,6 +30,7 @@ struct ModelMember {
   bool hinge_at_start = false;
   bool hinge_at_end = false;
   bool one_sided = false;  ///< carries tension alone or compression alone
+  bool hangs = false;      ///< a cable, of which a model has the ends alone
 };
 
 struct ModelSupport {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "api/plot/drawing.h"
 #include "api/plot/figures.h"
 #include "api/plot/plot_error.h"
@@ -21,7 +23,9 @@ Figure model_figure(const ResultInput& input, const PlotRequest& request, Size s
   Occupancy taken(used);
   Figure figure;
   figure.height = used.height;
-  figure.title = std::string("Undeformed structure") + (scene.mirror ? ", half mirrored" : "");
+  figure.title =
+      std::string("Undeformed structure") + (scene.mirror ? ", half mirrored" : "") +
+      (std::ranges::any_of(model.members, &ModelMember::hangs) ? ", cables as straight lines" : "");
   figure.description = counted(model.nodes.size(), "node") + ", " + counted(model.members.size(), "member") +
                        ", " + counted(model.supports.size(), "support") + ", " +
                        counted(model.loads.size(), "load") + ".";

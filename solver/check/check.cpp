@@ -25,6 +25,7 @@ std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   checks::check_masses(place, model, names);
   checks::check_monitors(place, model, names);
   checks::check_analysis(root, model, analysis, names);
+  checks::check_cables(root, model, analysis, names);
   checks::check_supported(root, model, analysis);
   if (findings.empty()) checks::check_obstacles(root, model, analysis);
   if (!findings.empty()) return findings;

@@ -60,20 +60,24 @@ void check_load(const Place& place, const SelfWeight& load, const Names&) {
   check_force(place / "gravity", load.gravity);
 }
 
-void check_load(const Place& place, const TemperatureLoad& load, const Names& names) {
-  require_beam(place / "member", load.member, names);
-  require_finite(place / "change", load.change);
-  require_finite(place / "gradient", load.gradient);
-  check_amounts(place / "change", load.change_along);
-  check_amounts(place / "gradient", load.gradient_along);
-}
-
 // NaN counts as an amount, because another finding reports it.
 bool is_amount(double value) { return !(value == 0.0); }
 bool is_amount(const std::array<double, 2>& v) { return is_amount(v[0]) || is_amount(v[1]); }
 template <class T>
 bool is_amount(const Along<T>& along) {
   return std::any_of(along.begin(), along.end(), [](const auto& point) { return is_amount(point.second); });
+}
+
+void check_load(const Place& place, const TemperatureLoad& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  require_finite(place / "change", load.change);
+  require_finite(place / "gradient", load.gradient);
+  check_amounts(place / "change", load.change_along);
+  check_amounts(place / "gradient", load.gradient_along);
+  if (names.rods.contains(load.member) && (is_amount(load.gradient) || is_amount(load.gradient_along)))
+    (place / "gradient")
+        .report("not_supported", "a gradient bends a member, and member " + in_quotes(load.member) +
+                                     " is one-sided: it is straight between its nodes");
 }
 
 bool has_amount(const PointLoad& load) { return is_amount(load.force) || is_amount(load.moment); }

@@ -233,7 +233,7 @@ void check_frequencies(const Place& root, const Model& model, const Analysis& an
                 "frequencies need masses: give sections a mass or a density, or give point masses");
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const Member& member = model.members[i];
-    if (!is_rod(member) || !names.sections.contains(member.section)) continue;
+    if (!is_rod(member) || member.cable || !names.sections.contains(member.section)) continue;
     const Section& section = model.sections[names.sections.index(member.section)];
     if (section.mass && section.mass->largest() > 0.0) {
       (root / "model" / "members" / i / "section")

@@ -61,6 +61,9 @@ void check_location(const Place& place, const Location& location, const Names& n
 bool require_beam(const Place& place, const std::string& member, const Names& names);
 /// Requires what one-sided members cannot have to be left out.
 void check_rod(const Place& place, const Member& rod);
+/// Checks members that hang between their nodes, and the analysis if there are any.
+/// @param root the place ""
+void check_cables(const Place& root, const Model& model, const Analysis& analysis, const Names& names);
 /// Section of a member; null: it names a section that does not exist.
 [[nodiscard]] const Section* section_of(const Member& member, const Model& data, const Names& names);
 /// Checks the pretension of a member. @pre member.pretension; the names of nodes and sections are known

@@ -30,14 +30,24 @@ void LoadBuilder::add_all(std::optional<double> load_scale) {
   const bool known = like_ != nullptr && model_.actions == like_->model->actions;
   if (known) {
     out_.proportional_load = like_->proportional_load;
-    out_.constant_load = like_->constant_load;
+    out_.constant_load = like_->constant_load - like_->drawn_pull;
   } else {
     for (const Action& action : model_.actions)
       std::visit([this](const auto& one) { add(one); }, action.what);
   }
   out_.scales.load = load_scale ? *load_scale : size_of_loads();
   if (!known) out_.proportional_load /= out_.scales.load;
+  add_cables();
   scale_other_actions();
+}
+
+void LoadBuilder::add_cables() {
+  for (const NodeSpring& spring : out_.node_springs) {
+    Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+    pull.head<2>() = spring.drawn_pull;
+    if (spring.is_cable()) spring.add(pull, out_.drawn_pull);
+  }
+  out_.constant_load += out_.drawn_pull;
 }
 
 void LoadBuilder::add(const PointAction& load) {

@@ -47,6 +47,7 @@ class LoadBuilder {
   }
   [[nodiscard]] double size_of_loads() const;
   void scale_other_actions();
+  void add_cables();
   void find_follower_ends(double load_scale);
   void add_follower_changes(const ElementPressure& pressure, double load_scale);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "solver/discrete/foundation_springs.h"
@@ -195,22 +196,23 @@ void SupportBuilder::add_unresolved() {
 
 void SupportBuilder::add_at_nodes() {
   out_.supports.assign(static_cast<std::size_t>(out_.nodes), {});
-  const auto prescribe = [this](NodeSupport& node, const PrescribedDisplacement& d) {
-    const std::array<double, 3> value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y),
-                                      d.rotation};
-    (d.pattern == Pattern::proportional ? node.proportional : node.constant) = value;
+  const auto scaled = [this](double x, double y, double rotation) {
+    return std::array{out_.scales.scaled_length(x), out_.scales.scaled_length(y), rotation};
   };
   for (const ResolvedSupport& support : model_.supports) {
     NodeSupport& node = out_.supports[support.node];
     node.fixed = {support.x, support.y, support.rotation};
     node.angle = support.angle_degrees * std::numbers::pi / 180.0;
-    if (support.displacement) prescribe(node, *support.displacement);
+    if (const auto& d = support.displacement)
+      (d->pattern == Pattern::proportional ? node.proportional : node.constant) =
+          scaled(d->x, d->y, d->rotation);
   }
   int ground = out_.first_ground;
-  for (const PrescribedDisplacement& displacement : ground_displacements(model_)) {
+  for (const auto& [proportional, constant] : ground_displacements(model_)) {
     NodeSupport& node = out_.supports[static_cast<std::size_t>(ground++)];
     node.fixed = {true, true, true};
-    prescribe(node, displacement);
+    node.proportional = std::apply(scaled, proportional);
+    node.constant = std::apply(scaled, constant);
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const ResolvedSpring& spring = laws_.springs[i];

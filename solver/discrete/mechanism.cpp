@@ -92,10 +92,10 @@ bool is_plainly_held(const ResolvedModel& model) {
 
 bool is_loose(const ResolvedModel& model) {
   const auto pulls = [](const ResolvedSpring& spring) {
-    return spring.rod && spring.reaction == Reaction::tension_only;
+    return spring.cable || (spring.rod && spring.reaction == Reaction::tension_only);
   };
   const auto is_slack = [&](const ResolvedSpring& spring) {
-    return pulls(spring) && spring.without_force < 0.0;
+    return spring.cable || (pulls(spring) && spring.without_force[0] < 0.0);
   };
   if (std::ranges::none_of(model.springs, pulls)) return false;
   const RigidMechanism mechanism(model, HeldBy::all_as_bilateral);

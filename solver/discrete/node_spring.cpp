@@ -42,6 +42,16 @@ Matrix3d NodeSpring::curvature_change(const Eigen::Ref<const VectorXd>& y,
   return -sense / (l * l) * (e.dot(a) * (n * n.transpose()) + n.dot(a) * (mixed + mixed.transpose()));
 }
 
+Catenary::Ends NodeSpring::change_of_ends(const Eigen::Ref<const VectorXd>& along) const {
+  return {-relative(along).head<2>(), without_force >= 0 ? -along[without_force] : 0.0};
+}
+
+Catenary::Ends NodeSpring::ends(const Eigen::Ref<const VectorXd>& y) const {
+  Catenary::Ends out = change_of_ends(y);
+  out.chord += length * direction().head<2>();
+  return out;
+}
+
 bool NodeSpring::acts(double w) const {
   if (!law.one_sided) return true;
   const bool is_known = touch != Touch::none && std::abs(w - law.gap) <= Rounding::touching;
@@ -58,6 +68,8 @@ NodeSpring node_spring(const SpringLaw& law, int node, int to) {
   out.law = law.law;
   out.force_unknown = law.force_unknown;
   out.give = law.give;
+  out.cable = law.cable;
+  out.drawn_pull = {law.drawn_pull[0], law.drawn_pull[1]};
   out.without_force = law.without_force;
   return out;
 }

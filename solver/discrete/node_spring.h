@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 
 #include "solver/element/element_set.h"
 #include "solver/mesh/dof_map.h"
+#include "solver/support/catenary.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -31,6 +33,10 @@ struct SpringMotion {
 /// A rod's w is row . r too where displacements count as small. With a pretension, w is less by sense times
 /// the unknown `without_force`, which is prescribed.
 ///
+/// A cable has no w: it pulls by its chord, and its lengthening without force is minus that unknown. Its
+/// force is counted from that as it is drawn, which belongs to the constant actions: without them every
+/// structure is in equilibrium as it is drawn.
+///
 /// The force p of a stop is an unknown, because stiffness times penetration would be the rounding of the
 /// displacements. A stop of the compliance c and the gap g acts where  w - g + p / k - c p > 0;  there
 /// w - g = c p, elsewhere p = 0 (the complementarity function of Alart and Curnier, Comput. Methods Appl.
@@ -44,12 +50,15 @@ struct NodeSpring {
   double length = 0.0;  ///< length of a rod; 0: the direction is fixed
   Law law;
   Touch touch = Touch::none;
-  int spring = -1;         ///< index among the springs
-  int force_unknown = -1;  ///< unknown force of a stop; -1: the law gives the force
-  double give = 0.0;       ///< compliance of a stop
-  int without_force = -1;  ///< unknown of a pretension; -1: none
+  int spring = -1;                          ///< index among the springs
+  int force_unknown = -1;                   ///< unknown force of a stop; -1: the law gives the force
+  double give = 0.0;                        ///< compliance of a stop
+  std::shared_ptr<const Catenary> cable{};  ///< null: the spring is none
+  Eigen::Vector2d drawn_pull = Eigen::Vector2d::Zero();  ///< pull of a cable on `node`, as it is drawn
+  int without_force = -1;                                ///< unknown of a pretension; -1: none
 
   [[nodiscard]] bool is_rod() const { return length > 0.0; }
+  [[nodiscard]] bool is_cable() const { return cable != nullptr; }
   [[nodiscard]] bool is_stop() const { return force_unknown >= 0; }
   /// Displacement r in a vector of unknowns.
   [[nodiscard]] Eigen::Vector3d relative(const Eigen::Ref<const Eigen::VectorXd>& y) const {
@@ -67,6 +76,10 @@ struct NodeSpring {
   [[nodiscard]] double pretensioned(const Eigen::Ref<const Eigen::VectorXd>& y) const {
     return without_force >= 0 ? -sense * y[without_force] : 0.0;
   }
+  /// Chord and lengthening of a cable at the unknowns y. @pre cable is not null
+  [[nodiscard]] Catenary::Ends ends(const Eigen::Ref<const Eigen::VectorXd>& y) const;
+  /// Their changes along the unknowns.
+  [[nodiscard]] Catenary::Ends change_of_ends(const Eigen::Ref<const Eigen::VectorXd>& along) const;
   /// Displacement w at the unknowns y, for small displacements, without the force of a stop.
   [[nodiscard]] double moved(const Eigen::Ref<const Eigen::VectorXd>& y) const {
     return direction().dot(relative(y)) + pretensioned(y);

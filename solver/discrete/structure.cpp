@@ -134,9 +134,15 @@ NodeSpring rod_of(const Structure& structure, std::size_t index) {
 SpringReading reading_of(const Structure& structure, std::size_t index, const Eigen::VectorXd& y) {
   const ResolvedModel& model = *structure.model;
   const ResolvedSpring& spring = model.springs[index];
+  const SpringLaw& law = structure.spring_laws[index];
   SpringReading out;
-  std::array<double, 3> row = structure.spring_laws[index].row;
-  if (spring.rod) {
+  std::array<double, 3> row = law.row;
+  if (law.cable) {
+    const Eigen::Vector2d pull = law.cable->pull(rod_of(structure, index).ends(y)).force;
+    out.force = pull.norm();
+    out.displacement = law.cable->largest_tension(pull) / law.cable->axial_stiffness() * law.length;
+    row = {-pull[0] / out.force, -pull[1] / out.force, 0.0};
+  } else if (spring.rod) {
     const SpringMotion motion = rod_of(structure, index).motion(y, structure.geometry == Geometry::linear);
     out.displacement = motion.w;
     row = {motion.gradient[0], motion.gradient[1], 0.0};
@@ -145,9 +151,9 @@ SpringReading reading_of(const Structure& structure, std::size_t index, const Ei
   if (spring.to)
     for (const auto& [at, weight] : displacement_row(structure, *spring.to, row).entries)
       out.row.entries.emplace_back(at, -weight);
-  if (const int ground = structure.spring_laws[index].ground; ground >= 0)
-    for (int c = 0; c < 3; ++c) out.row.entries.emplace_back(ground + c, -row[c]);
-  const SpringLaw& law = structure.spring_laws[index];
+  if (law.cable) return out;
+  if (law.ground >= 0)
+    for (int c = 0; c < 3; ++c) out.row.entries.emplace_back(law.ground + c, -row[c]);
   if (law.without_force >= 0) out.row.entries.emplace_back(law.without_force, -law.sense);
   if (!spring.rod) out.displacement = out.row.dot(y);
   out.depth = out.displacement - law.law.gap;

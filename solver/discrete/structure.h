@@ -133,7 +133,8 @@ struct Structure {
   std::vector<double> stiffest;
   std::vector<double> stiffest_rigid;  ///< stiffness of a rigid foundation on each element
   Eigen::VectorXd proportional_load;   ///< load per unit scaled load factor
-  Eigen::VectorXd constant_load;
+  Eigen::VectorXd constant_load;       ///< with the pull of cables as they are drawn
+  Eigen::VectorXd drawn_pull;          ///< the part of it that is the pull of cables
   Eigen::VectorXd metric;
   std::vector<MonitorRow> monitors;
   std::vector<FoundationPart> foundation_parts;       ///< in the order of the elements
@@ -156,9 +157,14 @@ struct Structure {
   Eigen::MatrixXd free_motions;
 };
 
-/// Prescribed displacements of the ground under springs and foundations, in the order of their nodes. That of
-/// a spring with a pretension is along x, and is what displacement_without_force() returns.
-[[nodiscard]] std::vector<PrescribedDisplacement> ground_displacements(const ResolvedModel& model);
+/// Prescribed displacement (x, y, rotation) of the ground, in the model's units.
+struct GroundMovement {
+  std::array<double, 3> proportional{};  ///< per load factor
+  std::array<double, 3> constant{};
+};
+/// Movements of the ground under springs and foundations, in the order of their nodes. That of a spring
+/// between two nodes is along x, and is what displacement_without_force() returns.
+[[nodiscard]] std::vector<GroundMovement> ground_displacements(const ResolvedModel& model);
 
 /// @brief Point forces of a model that turn with their places; none in linear geometry.
 /// @pre the unknowns and scales of the structure are set
@@ -187,6 +193,8 @@ struct SpringReading {
   double force = 0.0;  ///< force on the structure, against `row`
   double depth = 0.0;  ///< a one-sided spring acts where this distance is positive
 };
+/// The displacement of a cable is its largest strain times the distance of its nodes, and its force that in
+/// its middle.
 /// @param index index among the springs of the model
 [[nodiscard]] SpringReading reading_of(const Structure& structure, std::size_t index,
                                        const Eigen::VectorXd& y);

@@ -70,7 +70,7 @@ void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<Reso
   for (const ResolvedSpring& spring : springs) {
     SpringLaw& law = spring_laws.emplace_back(law_of(spring, structure.scales));
     law.ground = ground_under(spring);
-    if (spring.pretension) law.without_force = DofMap::first(ground++);
+    if (spring.has_length()) law.without_force = DofMap::first(ground++);
     if (!std::isfinite(law.law.stiffness)) set_stop(structure, spring, law);
   }
   for (const ResolvedFoundation& foundation : foundations) {
@@ -81,16 +81,20 @@ void add_laws(const std::vector<ResolvedSpring>& springs, const std::vector<Reso
   }
 }
 
-std::vector<PrescribedDisplacement> ground_displacements(const ResolvedModel& model) {
-  std::vector<PrescribedDisplacement> out;
+std::vector<GroundMovement> ground_displacements(const ResolvedModel& model) {
+  std::vector<GroundMovement> out;
+  const auto add = [&out](const std::array<double, 3>& amount, Pattern pattern) {
+    GroundMovement& moved = out.emplace_back();
+    (pattern == Pattern::proportional ? moved.proportional : moved.constant) = amount;
+  };
   for (const ResolvedSpring& spring : model.springs)
-    if (spring.displacement)
-      out.push_back(*spring.displacement);
-    else if (spring.pretension)
-      out.push_back({spring.without_force, 0.0, 0.0, Pattern::constant});
+    if (const auto& moved = spring.displacement)
+      add({moved->x, moved->y, moved->rotation}, moved->pattern);
+    else if (spring.has_length())
+      out.push_back({{spring.without_force[1], 0.0, 0.0}, {spring.without_force[0], 0.0, 0.0}});
   for (const ResolvedFoundation& foundation : model.foundations)
     if (const auto& moved = foundation.displacement)
-      out.push_back({largest_size(moved->x), largest_size(moved->y), 0.0, moved->pattern});
+      add({largest_size(moved->x), largest_size(moved->y), 0.0}, moved->pattern);
   return out;
 }
 

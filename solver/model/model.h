@@ -174,6 +174,9 @@ struct Member {
   /// only.
   Reaction reaction = Reaction::bilateral;
   std::optional<Pretension> pretension = std::nullopt;
+  /// A rod that only pulls, and hangs between its nodes in an elastic catenary under its constant self
+  /// weight.
+  bool cable = false;
   bool operator==(const Member&) const = default;
 };
 [[nodiscard]] inline bool is_rod(const Member& member) { return member.reaction != Reaction::bilateral; }
@@ -205,6 +208,14 @@ struct Support {
   bool operator==(const Support&) const = default;
 };
 
+/// Cable that hangs between two nodes under its weight.
+struct Cable {
+  double axial_stiffness = 0.0;            ///< > 0
+  double length = 0.0;                     ///< length without force, > 0
+  std::array<double, 2> weight{0.0, 0.0};  ///< force per length without force, not zero
+  bool operator==(const Cable&) const = default;
+};
+
 /// Discrete spring to ground, or between two nodes. `direction` points into the medium, or into what `to`
 /// belongs to; empty: rotational spring.
 struct Spring {
@@ -225,6 +236,11 @@ struct Spring {
   std::optional<std::size_t> rod = std::nullopt;
   std::optional<double> strength = std::nullopt;  ///< axial force that yields a rod at its weakest place
   std::optional<Pretension> pretension = std::nullopt;  ///< only with `to`, along the line between the nodes
+  /// Lengthening by temperature of a spring that stands for a member: constant, and per load factor.
+  std::array<double, 2> lengthening{0.0, 0.0};
+  /// Cable that the spring stands for; it is bilateral then, and half of the cable's weight acts at each
+  /// node.
+  std::optional<Cable> cable = std::nullopt;
   bool operator==(const Spring&) const = default;
 };
 

@@ -62,6 +62,27 @@ NodeSpringWork::State NodeSpringWork::state_of_stop(std::size_t index, const Vec
   return out;
 }
 
+/// The pull, from that as drawn, is minus the derivative of the energy by r. Small displacements leave the
+/// cable's tangent as it is where the nodes are drawn.
+NodeSpringWork::State NodeSpringWork::state_of_cable(const NodeSpring& cable, const VectorXd& y,
+                                                     const Regime& regime) {
+  Catenary::Ends ends = cable.ends(y);
+  Eigen::Vector2d moved = Eigen::Vector2d::Zero();
+  if (regime.small_displacements) {
+    moved = cable.change_of_ends(y).chord;
+    ends.chord -= moved;
+  }
+  const Catenary::Pull pull = cable.cable->pull(ends);
+  const Eigen::Vector2d force = pull.force + pull.stiffness * moved - cable.drawn_pull;
+  State out;
+  out.force = force.norm();
+  out.gradient.head<2>() = -force.normalized();
+  out.stiffness = pull.stiffness.trace();
+  out.tangent.topLeftCorner<2, 2>() = pull.stiffness;
+  out.by_pretension.head<2>() = pull.by_lengthening;
+  return out;
+}
+
 /// Adds the resistance of a rod to displacements from those of another state.
 void NodeSpringWork::add_drag(const NodeSpring& rod, const VectorXd& y, const Regime& regime, State& state) {
   const double stiffness = regime.drag * rod.law.stiffness;
@@ -77,6 +98,11 @@ void NodeSpringWork::evaluate(const VectorXd& y, const Regime& regime) {
       states_[i] = state_of_stop(i, y, regime);
       continue;
     }
+    if (spring.is_cable()) {
+      states_[i] = state_of_cable(spring, y, regime);
+      if (regime.drag > 0.0) add_drag(spring, y, regime, states_[i]);
+      continue;
+    }
     const auto [w, gradient, curvature] = spring.motion(y, regime.small_displacements);
     const Reaction at = reaction(i, w, regime);
     const double turning =
@@ -85,6 +111,7 @@ void NodeSpringWork::evaluate(const VectorXd& y, const Regime& regime) {
     states_[i].stiffness = at.stiffness;
     states_[i].gradient = gradient;
     states_[i].force = at.force;
+    states_[i].by_pretension = -spring.sense * at.stiffness * gradient;
     states_[i].tangent = at.stiffness * gradient * gradient.transpose() + turning * curvature;
     if (regime.drag > 0.0 && spring.is_rod()) add_drag(spring, y, regime, states_[i]);
   }
@@ -126,6 +153,14 @@ void NodeSpringWork::add_products(const Eigen::Ref<const VectorXd>& motion, Eige
 void NodeSpringWork::add_changes(const VectorXd& y, bool small_displacements, const VectorXd& along,
                                  const Eigen::Ref<const VectorXd>& motion, Eigen::Ref<VectorXd> out) const {
   for (const NodeSpring& spring : springs_) {
+    if (spring.is_cable()) {
+      if (small_displacements) continue;
+      Vector3d force = Vector3d::Zero();
+      force.head<2>() =
+          -spring.cable->second(spring.ends(y), spring.change_of_ends(along), spring.change_of_ends(motion));
+      spring.add(force, out);
+      continue;
+    }
     const bool turns = spring.is_rod() && !small_displacements;
     if (spring.law.curve == nullptr && !turns) continue;
     const auto [w, g, C] = spring.motion(y, small_displacements);

@@ -38,8 +38,8 @@ class NodeSpringWork {
   /// Tangent stiffness of a spring by its displacement r, see NodeSpring; of a stop with its force fixed.
   [[nodiscard]] const Eigen::Matrix3d& tangent(std::size_t spring) const { return states_[spring].tangent; }
   /// Derivative of the node's forces by the unknown of a pretension. @pre the spring has one
-  [[nodiscard]] Eigen::Vector3d force_by_pretension(std::size_t spring) const {
-    return -springs_[spring].sense * states_[spring].stiffness * states_[spring].gradient;
+  [[nodiscard]] const Eigen::Vector3d& force_by_pretension(std::size_t spring) const {
+    return states_[spring].by_pretension;
   }
   /// Adds the tangent stiffness times a motion.
   void add_products(const Eigen::Ref<const Eigen::VectorXd>& motion, Eigen::Ref<Eigen::VectorXd> out) const;
@@ -56,10 +56,11 @@ class NodeSpringWork {
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< dw / dr
     double force = 0.0;                                  ///< against w
     Eigen::Matrix3d tangent = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d drag = Eigen::Vector3d::Zero();  ///< force of Regime::drag
-    Eigen::Vector3d row = Eigen::Vector3d::Zero();   ///< derivative of a stop's row by r
-    double give = 0.0;                               ///< minus that by its force
-    double gap = 0.0;                                ///< value of the row, see NodeSpringWork
+    Eigen::Vector3d drag = Eigen::Vector3d::Zero();           ///< force of Regime::drag
+    Eigen::Vector3d by_pretension = Eigen::Vector3d::Zero();  ///< see force_by_pretension()
+    Eigen::Vector3d row = Eigen::Vector3d::Zero();            ///< derivative of a stop's row by r
+    double give = 0.0;                                        ///< minus that by its force
+    double gap = 0.0;                                         ///< value of the row, see NodeSpringWork
   };
   /// Reaction at a displacement w, with its derivative by w.
   struct Reaction {
@@ -69,6 +70,7 @@ class NodeSpringWork {
   [[nodiscard]] bool acts(std::size_t index, double w, const Regime& regime) const;
   [[nodiscard]] Reaction reaction(std::size_t index, double w, const Regime& regime) const;
   static void add_drag(const NodeSpring& rod, const Eigen::VectorXd& y, const Regime& regime, State& state);
+  static State state_of_cable(const NodeSpring& cable, const Eigen::VectorXd& y, const Regime& regime);
   [[nodiscard]] State state_of_stop(std::size_t index, const Eigen::VectorXd& y, const Regime& regime) const;
 
   std::span<const NodeSpring> springs_;

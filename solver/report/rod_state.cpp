@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/mesh/dof_map.h"
+#include "solver/report/cable_state.h"
 
 namespace snapthrough {
 
@@ -35,7 +36,12 @@ double axial_force_of(const Structure& structure, const NodeSpring& rod, const V
 }  // namespace
 
 Utilisation rod_utilisation(const Structure& structure, std::size_t spring, const VectorXd& y) {
-  const double force = axial_force_of(structure, rod_of(structure, spring), y);
+  const NodeSpring rod = rod_of(structure, spring);
+  if (rod.is_cable()) {
+    const Peak tension = largest_tension(structure, spring, y);
+    return {tension.value / *structure.model->springs[spring].strength, tension.s, Fibre::left};
+  }
+  const double force = axial_force_of(structure, rod, y);
   return {force / *structure.model->springs[spring].strength, 0.0, Fibre::left};
 }
 
@@ -61,6 +67,7 @@ MemberMode rod_mode(const Structure& structure, std::size_t spring, const Vector
 MemberState rod_state(const Structure& structure, std::size_t spring, const VectorXd& y, int points) {
   const ResolvedModel& model = *structure.model;
   const NodeSpring rod = rod_of(structure, spring);
+  if (rod.is_cable()) return cable_state(structure, spring, y, points);
   const bool is_linear = structure.geometry == Geometry::linear;
   const SpringMotion motion = rod.motion(y, is_linear);
   const double force = axial_force_of(structure, rod, y);

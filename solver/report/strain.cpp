@@ -61,6 +61,10 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
 }
 
 bool StrainGauge::is_beyond_theory(const Eigen::VectorXd& y) const {
+  const auto has_no_length = [&y](const NodeSpring& spring) {
+    return spring.is_cable() && spring.ends(y).lengthening <= -StrainLimits::largest * spring.cable->length();
+  };
+  if (std::ranges::any_of(structure_.node_springs, has_no_length)) return true;
   const CollocationRule& rule = CollocationRule::of(structure_.mesh.order);
   const int p = rule.order();
   for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {

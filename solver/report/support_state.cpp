@@ -98,7 +98,7 @@ VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidM
 /// Nodal forces and moments that only rigid supports can balance, in global axes.
 VectorXd held_forces(const Structure& structure, ElementWork& elements, const VectorXd& y, double lambda,
                      const VectorXd& springs) {
-  VectorXd f = -lambda * structure.proportional_load - structure.constant_load;
+  VectorXd f = structure.drawn_pull - lambda * structure.proportional_load - structure.constant_load;
   FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {-lambda, -1.0}, f);
   Regime regime;
   regime.small_displacements = structure.geometry == Geometry::linear;
@@ -293,10 +293,15 @@ double add_forces_on_structure(const Structure& structure, const VectorXd& y, do
   const VectorXd reactions =
       add_supports(structure, held_forces(structure, *elements, y, lambda, springs), state);
   add_foundations(structure, y, rigid, bearings);
-  VectorXd loads = lambda * structure.proportional_load + structure.constant_load;
+  VectorXd loads = lambda * structure.proportional_load + structure.constant_load - structure.drawn_pull;
   elements->add_pressure_load(y, {lambda, 1.0}, structure.geometry == Geometry::linear, loads);
   FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {lambda, 1.0}, loads);
-  state.loads = rigid.unscaled(rigid.work(loads));
+  Wrench acting = rigid.work(loads);
+  // half of a cable's weight acts at each node, and its pull there makes up for the place of its centre
+  for (std::size_t i = 0; i < model.springs.size(); ++i)
+    if (structure.spring_laws[i].cable)
+      for (std::size_t c = 0; c < acting.size(); ++c) acting[c] += bearings[i].wrench[c];
+  state.loads = rigid.unscaled(acting);
   Wrench left = balance(rigid.work(loads + reactions), largest_force(structure, y, reactions), bearings);
   left[2] = std::max(std::abs(left[2]) - moment_between_ends(structure, rigid, y), 0.0);
   const std::size_t first = model.springs.size();

@@ -4,14 +4,15 @@
 
 namespace snapthrough {
 
-double displacement_without_force(const Spring& spring, const Node& at, const Node& to) {
+std::array<double, 2> displacement_without_force(const Spring& spring, const Node& at, const Node& to) {
   const double dx = to.x - at.x;
   const double dy = to.y - at.y;
   const double towards = dx * (*spring.direction)[0] + dy * (*spring.direction)[1] >= 0.0 ? 1.0 : -1.0;
-  const Pretension& given = *spring.pretension;
-  const double shortening =
-      given.force ? *given.force / spring.stiffness : std::hypot(dx, dy) - *given.unstressed_length;
-  return towards * shortening;
+  double shortening = -spring.lengthening[0];
+  if (const auto& given = spring.pretension)
+    shortening +=
+        given->force ? *given->force / spring.stiffness : std::hypot(dx, dy) - *given->unstressed_length;
+  return {towards * shortening, -towards * spring.lengthening[1]};
 }
 
 InitialStrain strain_without_force(const Member& member, const Node& start, const Node& end,

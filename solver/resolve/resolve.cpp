@@ -38,7 +38,7 @@ class Resolver {
     const auto node = [this](int index) -> const Node& {
       return model_.nodes[static_cast<std::size_t>(index)];
     };
-    if (spring.pretension)
+    if (out.has_length())
       out.without_force = displacement_without_force(spring, node(out.at.node), node(out.to->node));
     return out;
   }

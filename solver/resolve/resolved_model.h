@@ -5,6 +5,7 @@
 /// A resolved object is the object of Model with fields that hide those of the same name: `member` of a
 /// resolved foundation is the index of the member, -1: none. Ids are left as names for reports.
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <variant>
@@ -31,7 +32,10 @@ struct ResolvedSupport : Support {
 struct ResolvedSpring : Spring {
   ResolvedLocation at;
   std::optional<ResolvedLocation> to;
-  double without_force = 0.0;  ///< see displacement_without_force(); of springs with a pretension
+  /// See displacement_without_force(): constant, and per load factor; of springs with has_length().
+  std::array<double, 2> without_force{0.0, 0.0};
+  /// Whether the length between the nodes is not, or not always, that without force.
+  [[nodiscard]] bool has_length() const { return pretension || lengthening != std::array{0.0, 0.0}; }
   bool operator==(const ResolvedSpring&) const = default;
 };
 

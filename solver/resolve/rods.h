@@ -13,8 +13,10 @@
 namespace snapthrough {
 
 /// @brief Replaces each one-sided member by a spring of the stiffness EA / length between its nodes, along
-/// the line through them, and its weight by half at each node. The length, also that which weighs, is the
-/// unstressed one where that is given, else the distance of the nodes.
+/// the line through them, or by a cable between them (Spring::cable), and its weight by half at each node.
+/// The length, also that which weighs, is the unstressed one where that is given, else the distance of the
+/// nodes. A temperature lengthens the spring; a point load without force takes its place in the list of
+/// loads.
 ///
 /// The springs follow those of the model, in the order of the members. A compression is a positive force of
 /// such a spring. Members, springs and foundations otherwise keep their order.

@@ -16,6 +16,8 @@
 
 namespace snapthrough {
 
+class Catenary;
+
 /// @brief Reaction law of a support: the force against its direction (per length for foundations) as a
 /// function of the penetration: linear, or capacity * f(stiffness * penetration / capacity) with a curve f.
 ///
@@ -128,7 +130,7 @@ template <class Support>
 
 /// Whether a pretension presses a one-sided spring on the undeformed structure.
 [[nodiscard]] inline bool is_tight(const ResolvedSpring& spring) {
-  return is_one_sided(spring) && -sense_of(spring.reaction) * spring.without_force > spring.gap;
+  return is_one_sided(spring) && -sense_of(spring.reaction) * spring.without_force[0] > spring.gap;
 }
 [[nodiscard]] inline bool is_tight(const ResolvedFoundation&) { return false; }
 
@@ -208,8 +210,10 @@ struct SpringLaw {
   int ground = -1;                             ///< unknown of the ground's displacement along x; -1: at rest
   /// Unknown that is the displacement at which a spring with a pretension has no force; -1: zero.
   int without_force = -1;
-  double give = 0.0;       ///< compliance of a stop whose force is an unknown; 0: none is
-  int force_unknown = -1;  ///< that unknown; -1: the law gives the force
+  std::shared_ptr<const Catenary> cable{};  ///< cable that the spring stands for; null: the law acts
+  std::array<double, 2> drawn_pull{};       ///< its force as it is drawn, see NodeSpring
+  double give = 0.0;                        ///< compliance of a stop whose force is an unknown; 0: none is
+  int force_unknown = -1;                   ///< that unknown; -1: the law gives the force
 };
 
 /// Largest magnitude of a number along its member.

@@ -24,6 +24,7 @@ const kBetweenFields = {
   not_fixed: 'fixed and displacement of a support',
   no_load: 'loads, displacements of supports and type of analysis',
   no_mass: 'masses of sections and points, and what the analysis gives',
+  no_weight: 'cables and self weights of the model',
   mechanism: 'the whole model',
   unsupported: 'geometry and type of analysis',
   not_increasing: 'a fraction or a point and the one before it',

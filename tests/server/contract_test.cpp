@@ -124,6 +124,7 @@ bool needs_several_fields(const Finding& finding) {
                                             "enters_obstacle",    // supports and rigid foundations
                                             "no_load",           "mechanism",  // the model as a whole
                                             "no_mass",                         // masses and frequencies
+                                            "no_weight",                       // cables and self weight
                                             "unsupported",     // pairs of fields that do not go together
                                             "not_supported",   // imperfections and the analysis
                                             "not_increasing",  // one fraction and the one before

@@ -259,6 +259,18 @@ TEST(ShapeFigure, AnotherRequestIsRefused) {
   }
 }
 
+TEST(ModelFigure, SaysThatCablesAreStraight) {
+  json request = {{"model",
+                   {{"nodes", {{{"id", "a"}, {"x", 0}, {"y", 0}}, {{"id", "b"}, {"x", 9}, {"y", 1}}}},
+                    {"sections", {{{"id", "rope"}, {"EA", 100}, {"EI", 1}, {"mass", 1}}}},
+                    {"members", {{{"id", "span"}, {"start", "a"}, {"end", "b"}, {"section", "rope"}}}}}}};
+  EXPECT_THAT(svg_of(request, of_kind(PlotKind::model)), Not(HasSubstr("cables")));
+  request["model"]["members"][0]["cable"] = true;
+  const std::string text = svg_of(request, of_kind(PlotKind::model));
+  EXPECT_THAT(text, HasSubstr("cables as straight lines"));
+  EXPECT_THAT(read(text).with("hinge"), SizeIs(2));
+}
+
 TEST(ModeFigure, BucklingModesAreDrawnOnTheStructureOrAlongTheMembers) {
   const json request = testing::example_request("frame_portal");
   const json result = solved(request);

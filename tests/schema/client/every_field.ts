@@ -160,6 +160,7 @@ const model: Schemas['Model'] = {
     ...springLaws.map((law, i): Schemas['Member'] => ({
       id: `joint ${i}`, start: 'a', end: 'b', section: 'stiffness', release: {start: {rotation: {law}}, end: {rotation: {law}}}})),
     {id: 'brace', start: 'a', end: 'b', section: 'stiffness', reaction: 'tension_only', pretension: {unstressed_length: 4.9}},
+    {id: 'rope', start: 'a', end: 'b', section: 'stiffness', cable: true, pretension: {unstressed_length: 5.1}},
   ],
   supports, springs, soils, foundations, loads, load_cases: loadCases, imperfections,
   masses: location.map((at) => ({at, mass: 2, inertia: 0.1})), damping: {mass: 0.1, stiffness: 1e-3},

@@ -142,7 +142,7 @@ export class Drawer {
     model.supports = (model.supports ?? []).filter((one, i) => one.node !== first.id && i < model.nodes.length);
     model.supports.push({node: first.id, fixed: ['x', 'y', 'rotation']});
     for (const one of model.supports) delete one.displacement, delete one.pattern;
-    for (const one of model.members) delete one.release, delete one.reaction, delete one.pretension;
+    for (const one of model.members) delete one.release, delete one.reaction, delete one.cable, delete one.pretension;
     for (const one of model.springs ?? []) delete one.pretension;
     for (const one of model.sections) for (const field of ['EA', 'EI', 'GA']) if (one[field] === 'rigid') one[field] = 1;
   }

@@ -60,7 +60,7 @@ export function hingeShapes(scene: Scene, view: View): Shape {
     const drawn = scene.members.get(member.id);
     if (!drawn) continue;
     for (const end of ["start", "end"] as const) {
-      const rod = (member.reaction ?? "bilateral") !== "bilateral";
+      const rod = (member.reaction ?? "bilateral") !== "bilateral" || member.cable === true;
       const released = rod ? ["rotation"] : member.release?.[end];
       if (released === undefined || (Array.isArray(released) && !released.includes("rotation"))) continue;
       const place = hingePlace(drawn, end, view);
