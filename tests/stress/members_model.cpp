@@ -31,7 +31,9 @@ constexpr double kRigid = std::numeric_limits<double>::infinity();
 class MembersDrawer {
  public:
   MembersDrawer(RandomRequest request, std::uint64_t seed)
-      : random_(Random(seed + 0x3E3BE55).bits()), out_(std::move(request)) {
+      : random_(Random(seed + 0x3E3BE55).bits()),
+        hanging_(Random(seed + 0xCAB1E5).bits()),
+        out_(std::move(request)) {
     for (const auto& axis : make_axes(resolve(out_.model))) length_ = std::max(length_, axis->length());
     for (const Section& section : out_.model.sections) force_ = std::max(force_, section.EI.largest());
     force_ /= length_ * length_;
@@ -71,8 +73,12 @@ class MembersDrawer {
   [[nodiscard]] bool may_yield(const Section& section);
   void bending_laws();
   void strengths();
+  void heat_rods();
+  void cables();
+  void weigh();
 
   Random random_;
+  Random hanging_;  ///< of cables and temperatures of rods, so that they change nothing else
   RandomRequest out_;
   double length_ = 0.0;  ///< of the longest member
   double force_ = 0.0;   ///< largest EI / length^2
@@ -397,6 +403,49 @@ void MembersDrawer::strengths() {
   }
 }
 
+void MembersDrawer::heat_rods() {
+  for (const Member& member : model().members) {
+    if (!is_rod(member) || !hanging_.chance(0.25)) continue;
+    section_of(member).expansion = hanging_.decades(-5.0, -4.0);
+    TemperatureLoad heat{member.id, 50.0 * hanging_.between(-1.0, 1.0)};
+    // at a large load factor, cold that grows leaves a cable no length
+    heat.pattern = member.reaction == Reaction::tension_only || hanging_.chance(0.5) ? Pattern::constant
+                                                                                     : Pattern::proportional;
+    model().loads.insert(model().loads.begin(), heat);  // those of load cases stand last
+  }
+}
+
+/// Makes cables of rods that pull, tight or slack.
+void MembersDrawer::cables() {
+  bool some = false;
+  for (Member& member : model().members) {
+    if (member.reaction != Reaction::tension_only || !hanging_.chance(0.4)) continue;
+    const Node& a = model().nodes[static_cast<std::size_t>(index_of(model().nodes, member.start))];
+    const Node& b = model().nodes[static_cast<std::size_t>(index_of(model().nodes, member.end))];
+    member.cable = some = true;
+    member.pretension.reset();
+    if (hanging_.chance(0.8))
+      member.pretension =
+          Pretension{{}, std::hypot(b.x - a.x, b.y - a.y) * (1.0 + 0.1 * hanging_.between(-0.1, 1.0))};
+    section_of(member).EA = section_of(member).EA.constant;
+    section_of(member).mass = force_ / length_ * hanging_.decades(-3.0, 0.0);
+  }
+  if (some) weigh();
+}
+
+/// Gives the model a constant weight in place of one that grows.
+void MembersDrawer::weigh() {
+  for (Section& section : model().sections)
+    if (!section.mass) section.mass = 0.0;
+  bool weighs = false;
+  for (Load& load : model().loads)
+    if (auto* weight = std::get_if<SelfWeight>(&load)) {
+      weight->pattern = Pattern::constant;
+      weighs = true;
+    }
+  if (!weighs) model().loads.insert(model().loads.begin(), SelfWeight{{0.0, -1.0}, Pattern::constant});
+}
+
 RandomRequest MembersDrawer::draw() {
   rigid_members();
   pretensioned_members();
@@ -410,6 +459,8 @@ RandomRequest MembersDrawer::draw() {
   drop_moments();
   bending_laws();
   strengths();
+  heat_rods();
+  cables();
   return out_;
 }
 

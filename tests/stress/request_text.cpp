@@ -134,6 +134,7 @@ Json written(const Member& m) {
     out["release"]["start"] = released(m.release_start_stiffness, m.release_start_law);
   if (m.release_end_rotation) out["release"]["end"] = released(m.release_end_stiffness, m.release_end_law);
   if (is_rod(m)) out["reaction"] = name_of(m.reaction);
+  if (m.cable) out["cable"] = true;
   if (m.pretension) out["pretension"] = written(*m.pretension);
   return out;
 }

@@ -34,6 +34,9 @@ class Maker {
   void element_actions(RodElement& element);
   void nodes();
   void bars(const Model& whole);
+  static void heat(RodBar& bar, const Member& member, const Section& section, double length,
+                   const Model& whole);
+  void hang(RodBar& bar, const Section& section, double length, const Model& whole);
   void sampling();
 
  private:
@@ -466,6 +469,38 @@ double mean_compliance(const AlongMember& EA) {
   return out;
 }
 
+/// Sets the lengthening of a rod by the mean of its temperature. @param length of the rod without force
+void Maker::heat(RodBar& bar, const Member& member, const Section& section, double length,
+                 const Model& whole) {
+  for (const Load& load : whole.loads) {
+    const auto* t = std::get_if<TemperatureLoad>(&load);
+    if (t == nullptr || t->member != member.id) continue;
+    double mean = t->change;
+    if (!t->change_along.empty()) {
+      mean = t->change_along.front().first * t->change_along.front().second +
+             (1.0 - t->change_along.back().first) * t->change_along.back().second;
+      for (std::size_t i = 1; i < t->change_along.size(); ++i) {
+        const auto& [from, before] = t->change_along[i - 1];
+        const auto& [to, after] = t->change_along[i];
+        mean += 0.5 * (to - from) * (before + after);
+      }
+    }
+    bar.lengthening[slot(t->pattern)] += section.expansion.value_or(0.0) * mean * length;
+  }
+}
+
+/// Makes a rod a cable under its constant weight. @param length without force
+void Maker::hang(RodBar& bar, const Section& section, double length, const Model& whole) {
+  const double unit = rod_.force / rod_.length;  // of a force per length
+  HangingBar& cable = bar.cable.emplace();
+  cable.EA = section.EA.constant / rod_.force;
+  cable.length = length;
+  for (const Load& load : whole.loads)
+    if (const auto* weight = std::get_if<SelfWeight>(&load); weight && weight->pattern == Pattern::constant)
+      cable.weight += section.mass.value_or(0.0).constant / unit *
+                      Eigen::Vector2d(weight->gravity[0], weight->gravity[1]);
+}
+
 /// Rods of the whole model, whose weight acts on their nodes. The lengthening of a rod is that of its mean
 /// compliance; compliance and mass are those of its length without force where that is given.
 void Maker::bars(const Model& whole) {
@@ -492,6 +527,8 @@ void Maker::bars(const Model& whole) {
       bar.stretched = *member.pretension->force / (rod_.force * bar.stiffness);
     bar.sign = member.reaction == Reaction::tension_only ? 1 : -1;
     bar.member = m;
+    heat(bar, member, section, length, whole);
+    if (member.cable) hang(bar, section, length, whole);
     rod_.bars.push_back(bar);
     const double half = 0.5 * section.mass.value_or(0.0).constant * length * rod_.length;
     for (const Load& load : whole.loads)
@@ -669,7 +706,26 @@ RodModel make_rod_model(const Model& model, const Analysis& analysis, const Mesh
   return rod;
 }
 
+BarPull RodBar::pull(const Eigen::Vector2d& now, double load_factor) const {
+  const double longer = lengthening[0] * load_factor + lengthening[1];
+  if (cable) return pull_of(*cable, now, longer);
+  BarPull out;
+  const double force = stiffness * (now.norm() - along.norm() + stretched - longer);
+  if (!(sign * force > 0.0)) return out;
+  const Eigen::Vector2d e = now.normalized();
+  const Eigen::Vector2d n(-e.y(), e.x());
+  out.force = force * e;
+  out.tangent = stiffness * e * e.transpose() + force / now.norm() * n * n.transpose();
+  out.at_start = force;
+  return out;
+}
+
 Model without_bars(Model model) {
+  const auto heats_a_bar = [&model](const Load& load) {
+    const auto* heat = std::get_if<TemperatureLoad>(&load);
+    return heat != nullptr && is_rod(model.members[index_of(model.members, heat->member)]);
+  };
+  std::erase_if(model.loads, heats_a_bar);
   std::erase_if(model.members, [](const Member& m) { return m.reaction != Reaction::bilateral; });
   return model;
 }

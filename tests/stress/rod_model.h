@@ -15,6 +15,7 @@
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
 #include "solver/result.h"
+#include "tests/stress/rod_cable.h"
 #include "tests/stress/rod_law.h"
 #include "tests/stress/rod_rule.h"
 #include "tests/stress/rod_surface.h"
@@ -136,20 +137,19 @@ struct NodeSpring {
   std::size_t place = 0;  ///< in the model's list
 };
 
-/// Rod between two nodes, which takes a compression or a tension only.
+/// Rod between two nodes, which takes a compression or a tension only, or a cable.
 struct RodBar {
   int start = 0, end = 0;
   Eigen::Vector2d along = Eigen::Vector2d::Zero();  ///< from its start to its end, unloaded
   double stiffness = 0.0;                           ///< force of a lengthening of one
-  double stretched = 0.0;  ///< length between its nodes, unloaded, less its length without force
-  int sign = 1;            ///< of the force that it takes; 1 is a tension
-  std::size_t member = 0;  ///< of the model
+  double stretched = 0.0;               ///< length between its nodes, unloaded, less its length without force
+  int sign = 1;                         ///< of the force that it takes; 1 is a tension
+  std::size_t member = 0;               ///< of the model
+  std::array<double, 2> lengthening{};  ///< by temperature, without force: proportional, constant
+  std::optional<HangingBar> cable = {};
 
-  /// Force at a distance of its nodes, a tension positive.
-  [[nodiscard]] double force_at(double distance) const {
-    const double force = stiffness * (distance - along.norm() + stretched);
-    return sign * force > 0.0 ? force : 0.0;
-  }
+  /// @param now vector from its start to its end
+  [[nodiscard]] BarPull pull(const Eigen::Vector2d& now, double load_factor) const;
 };
 
 /// Joint of a member's end and its node.

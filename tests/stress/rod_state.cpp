@@ -689,14 +689,14 @@ void Evaluation::anchors() {
 void Evaluation::bars(NodeSums& sums) {
   for (const RodBar& bar : rod_.bars) {
     const Eigen::Vector2d now = bar.along + (out_.nodes[bar.end] - out_.nodes[bar.start]).head<2>();
-    const double force = bar.force_at(now.norm());
+    const BarPull pull = bar.pull(now, state_.load_factor);
     const double noise = bar.stiffness * 100.0 * noise_;
     const double reported = state_.members[bar.member].axial_force.front() / rod_.force;
-    note(reported - force, noise + kConvergedForce * std::abs(force),
+    note(reported - pull.at_start, noise + kConvergedForce * std::abs(pull.at_start),
          "force of rod " + std::to_string(bar.member));
-    if (force != 0.0) sums.noise = std::max(sums.noise, noise);
-    sums.force[bar.end].head<2>() += force * now.normalized();
-    sums.force[bar.start].head<2>() -= force * now.normalized();
+    if (pull.at_start != 0.0) sums.noise = std::max(sums.noise, noise);
+    sums.force[bar.end].head<2>() += pull.force;
+    sums.force[bar.start].head<2>() -= pull.force;
   }
 }
 

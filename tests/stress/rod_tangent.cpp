@@ -137,15 +137,10 @@ void add_joint(MatrixXd& K, double stiffness, Index end, Index node) {
   K(node, end) -= stiffness;
 }
 
-/// Adds the tangent k e e^T + N / l n n^T of a rod of the stiffness k with the force N along e, where its
-/// nodes are the length l apart.
-void add_bar(MatrixXd& K, const RodBar& bar, const RodState& at) {
+/// Adds the tangent of a rod or cable.
+void add_bar(MatrixXd& K, const RodBar& bar, const RodState& at, double load_factor) {
   const Eigen::Vector2d now = bar.along + (at.nodes[bar.end] - at.nodes[bar.start]).head<2>();
-  const double force = bar.force_at(now.norm());
-  if (force == 0.0) return;
-  const Eigen::Vector2d e = now.normalized();
-  const Eigen::Vector2d n(-e.y(), e.x());
-  const Eigen::Matrix2d k = bar.stiffness * e * e.transpose() + force / now.norm() * n * n.transpose();
+  const Eigen::Matrix2d k = bar.pull(now, load_factor).tangent;
   for (const int row : {bar.start, bar.end})
     for (const int column : {bar.start, bar.end})
       K.block(3L * row, 3L * column, 2, 2) += row == column ? k : Eigen::Matrix2d(-k);
@@ -172,7 +167,7 @@ void add_end_actions(const RodModel& rod, const RodState& at, double load_factor
   MatrixXd& K = out.matrix;
   for (std::size_t i = 0; i < rod.node_springs.size(); ++i)
     add_node_spring(K, rod.node_springs[i], at.node_stiffness[i]);
-  for (const RodBar& bar : rod.bars) add_bar(K, bar, at);
+  for (const RodBar& bar : rod.bars) add_bar(K, bar, at, load_factor);
   for (std::size_t m = 0; m < rod.members.size(); ++m) {
     const RodMember& member = rod.members[m];
     if (member.at_start.resists)

@@ -81,7 +81,7 @@ std::string features_of_members(const Model& m) {
   constexpr std::array kCurves{"line", "arc", "parabola", "sine", "points"};
   for (const Member& member : m.members) {
     if (is_rod(member)) {
-      text += " rod";
+      text += member.cable ? " cable" : " rod";
       if (member.pretension) text += "(pretension)";
       continue;
     }
