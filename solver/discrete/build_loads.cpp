@@ -30,7 +30,8 @@ void LoadBuilder::add_all(std::optional<double> load_scale) {
   const bool known = like_ != nullptr && model_.actions == like_->model->actions;
   if (known) {
     out_.proportional_load = like_->proportional_load;
-    out_.constant_load = like_->constant_load - like_->drawn_pull;
+    out_.constant_load = like_->constant_load;
+    if (like_->drawn_pull.size() > 0) out_.constant_load -= like_->drawn_pull;
   } else {
     for (const Action& action : model_.actions)
       std::visit([this](const auto& one) { add(one); }, action.what);
@@ -42,6 +43,8 @@ void LoadBuilder::add_all(std::optional<double> load_scale) {
 }
 
 void LoadBuilder::add_cables() {
+  if (std::ranges::none_of(out_.node_springs, &NodeSpring::is_cable)) return;
+  out_.drawn_pull = Eigen::VectorXd::Zero(out_.size);
   for (const NodeSpring& spring : out_.node_springs) {
     Eigen::Vector3d pull = Eigen::Vector3d::Zero();
     pull.head<2>() = spring.drawn_pull;

@@ -88,7 +88,6 @@ void number_unknowns(std::vector<SpringLaw>& equations, Structure& out) {
   out.size = next;
   out.proportional_load = Eigen::VectorXd::Zero(out.size);
   out.constant_load = Eigen::VectorXd::Zero(out.size);
-  out.drawn_pull = Eigen::VectorXd::Zero(out.size);
 }
 
 }  // namespace snapthrough

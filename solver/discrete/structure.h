@@ -134,7 +134,7 @@ struct Structure {
   std::vector<double> stiffest_rigid;  ///< stiffness of a rigid foundation on each element
   Eigen::VectorXd proportional_load;   ///< load per unit scaled load factor
   Eigen::VectorXd constant_load;       ///< with the pull of cables as they are drawn
-  Eigen::VectorXd drawn_pull;          ///< the part of it that is the pull of cables
+  Eigen::VectorXd drawn_pull;          ///< part of it that is the pull of cables; empty: none
   Eigen::VectorXd metric;
   std::vector<MonitorRow> monitors;
   std::vector<FoundationPart> foundation_parts;       ///< in the order of the elements

@@ -98,7 +98,8 @@ VectorXd add_springs(const Structure& structure, const VectorXd& y, const RigidM
 /// Nodal forces and moments that only rigid supports can balance, in global axes.
 VectorXd held_forces(const Structure& structure, ElementWork& elements, const VectorXd& y, double lambda,
                      const VectorXd& springs) {
-  VectorXd f = structure.drawn_pull - lambda * structure.proportional_load - structure.constant_load;
+  VectorXd f = -lambda * structure.proportional_load - structure.constant_load;
+  if (structure.drawn_pull.size() > 0) f += structure.drawn_pull;
   FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {-lambda, -1.0}, f);
   Regime regime;
   regime.small_displacements = structure.geometry == Geometry::linear;
@@ -293,7 +294,8 @@ double add_forces_on_structure(const Structure& structure, const VectorXd& y, do
   const VectorXd reactions =
       add_supports(structure, held_forces(structure, *elements, y, lambda, springs), state);
   add_foundations(structure, y, rigid, bearings);
-  VectorXd loads = lambda * structure.proportional_load + structure.constant_load - structure.drawn_pull;
+  VectorXd loads = lambda * structure.proportional_load + structure.constant_load;
+  if (structure.drawn_pull.size() > 0) loads -= structure.drawn_pull;
   elements->add_pressure_load(y, {lambda, 1.0}, structure.geometry == Geometry::linear, loads);
   FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {lambda, 1.0}, loads);
   Wrench acting = rigid.work(loads);
