@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -207,6 +208,9 @@ PathStart start_of_path(const Structure& structure, StructuralProblem& problem, 
              " at " + rounded(outcome.last.lambda) + " of them");
     return {};
   }
+  const bool has_cables = std::ranges::any_of(structure.node_springs, &NodeSpring::is_cable);
+  if (has_cables && outcome.end != TraceEnd::load_factor)
+    if (PathStart start = start_where_tight(structure, solver, direction, result)) return start;
   if (outcome.end == TraceEnd::no_start) {
     fail(result, "constant_actions",
          "the constant actions can't be put on: " + nothing_found(structure, first));

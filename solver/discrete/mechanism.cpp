@@ -98,6 +98,9 @@ bool is_loose(const ResolvedModel& model) {
     return spring.cable || (pulls(spring) && spring.without_force[0] < 0.0);
   };
   if (std::ranges::none_of(model.springs, pulls)) return false;
+  // where nothing bends, the state of least energy is the only one, and it needs no path that leads there
+  const auto hangs = [](const ResolvedSpring& spring) { return spring.cable.has_value(); };
+  if (model.members.empty() && std::ranges::any_of(model.springs, hangs)) return true;
   const RigidMechanism mechanism(model, HeldBy::all_as_bilateral);
   if (mechanism.unknown() || mechanism.motions().empty()) return false;
   return mechanism.motions().size() == MechanismLimits::motions ||

@@ -18,7 +18,8 @@ namespace snapthrough {
 [[nodiscard]] std::vector<Finding> find_mechanism(const ResolvedModel& model);
 
 /// @brief Whether a structure that can move without strain has members that only pull, which may hold it when
-/// they are tight: the loads drive such a motion, or these members are slack as they are drawn.
+/// they are tight: the loads drive such a motion, or these members are slack as they are drawn. A structure
+/// of cables and rods alone counts as one.
 /// @pre the model passed all other checks
 [[nodiscard]] bool is_loose(const ResolvedModel& model);
 

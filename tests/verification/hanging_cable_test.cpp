@@ -2,6 +2,7 @@
 /// (H. M. Irvine, Cable Structures, 1981, section 1.3) in structures.
 #include <array>
 #include <cmath>
+#include <map>
 #include <random>
 #include <string>
 
@@ -161,8 +162,39 @@ TEST(HangingCable, HeatedRod) {
   }
 }
 
-/// Random structures of cables between supports and free nodes: each cable has the end forces that Irvine's
-/// equations ask for, and the forces at free nodes are in balance.
+/// Each cable has the end forces that Irvine's equations ask for, and the forces at free nodes are in
+/// balance.
+void expect_balance(const Model& model, const std::string& what) {
+  const State state = state_of(model);
+  const double EA = model.sections[0].EA.constant;
+  const double w = model.sections[0].mass->constant;
+  std::map<std::string, std::array<double, 2>> sums;
+  double largest = 0.0;
+  for (const Member& member : model.members) {
+    const MemberState& rope = member_of(state, member.id);
+    const double L = *member.pretension->unstressed_length;
+    const EndForces at = end_forces(rope, w * L);
+    const auto chord = irvine(at, EA, L, w);
+    // H by the end forces has half of the digits of a steep cable's
+    EXPECT_NEAR(chord[0], rope.x.back() - rope.x.front(), 1e-6 * L) << what << ", " << member.id;
+    EXPECT_NEAR(chord[1], rope.y.back() - rope.y.front(), 1e-6 * L) << what << ", " << member.id;
+    sums[member.start][0] += at.H;
+    sums[member.start][1] -= at.V;
+    sums[member.end][0] -= at.H;
+    sums[member.end][1] += at.V - w * L;
+    largest = std::max(largest, rope.extremes.axial_force.max.value);
+  }
+  for (const Load& load : model.loads)
+    if (const auto* point = std::get_if<PointLoad>(&load))
+      for (std::size_t c = 0; c < 2; ++c) sums[point->at.node][c] += point->force[c];
+  for (const Support& held : model.supports) sums.erase(held.node);
+  for (const auto& [node, sum] : sums) {
+    EXPECT_NEAR(sum[0], 0.0, 1e-6 * largest) << what << ", node " << node;
+    EXPECT_NEAR(sum[1], 0.0, 1e-6 * largest) << what << ", node " << node;
+  }
+}
+
+/// Random structures of cables between supports and free nodes.
 TEST(HangingCable, RandomNetsAreInBalance) {
   std::mt19937 random(5);
   const auto between = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
@@ -186,31 +218,27 @@ TEST(HangingCable, RandomNetsAreInBalance) {
         model.members.push_back(cable("tie " + id, "tie " + id, id, between(6.0, 12.0)));
       }
     }
-    const State state = state_of(model);
-    std::map<std::string, std::array<double, 2>> sums;
-    double largest = 0.0;
-    for (const Member& member : model.members) {
-      const MemberState& rope = member_of(state, member.id);
-      const double L = *member.pretension->unstressed_length;
-      const EndForces at = end_forces(rope, w * L);
-      const auto chord = irvine(at, EA, L, w);
-      // H by the end forces has half of the digits of a steep cable's
-      EXPECT_NEAR(chord[0], rope.x.back() - rope.x.front(), 1e-6 * L) << "seed " << seed << ", " << member.id;
-      EXPECT_NEAR(chord[1], rope.y.back() - rope.y.front(), 1e-6 * L) << "seed " << seed << ", " << member.id;
-      sums[member.start][0] += at.H;
-      sums[member.start][1] -= at.V;
-      sums[member.end][0] -= at.H;
-      sums[member.end][1] += at.V - w * L;
-      largest = std::max(largest, rope.extremes.axial_force.max.value);
-    }
-    for (const Load& load : model.loads)
-      if (const auto* point = std::get_if<PointLoad>(&load))
-        for (std::size_t c = 0; c < 2; ++c) sums[point->at.node][c] += point->force[c];
-    for (const Support& held : model.supports) sums.erase(held.node);
-    for (const auto& [node, sum] : sums) {
-      EXPECT_NEAR(sum[0], 0.0, 1e-6 * largest) << "seed " << seed << ", node " << node;
-      EXPECT_NEAR(sum[1], 0.0, 1e-6 * largest) << "seed " << seed << ", node " << node;
-    }
+    expect_balance(model, "seed " + std::to_string(seed));
+  }
+}
+
+/// Pairs of cables, slack and taut, drawn near and far from where they hang: each has a state.
+TEST(HangingCable, RandomPairsHaveAState) {
+  std::mt19937 random(9);
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  for (int seed = 0; seed < 250; ++seed) {
+    const double span = std::pow(10.0, between(0.0, 2.0));
+    const double w = std::pow(10.0, between(-1.0, 2.0));
+    Model model;
+    model.nodes = {
+        {"a", 0.0, 0.0}, {"b", span * between(0.1, 2.0), span * between(-1.0, 0.5)}, {"c", 3.0 * span, 0.0}};
+    model.sections = {rope(w * span * std::pow(10.0, between(1.0, 5.0)), w)};
+    model.members = {cable("left", "a", "b", span * between(1.4, 3.0)),
+                     cable("right", "b", "c", span * between(1.5, 3.0))};
+    model.supports = {support("a", "xy"), support("c", "xy")};
+    model.loads = {weight(),
+                   force_at(at_node("b"), w * span * between(-1.0, 1.0), -w * span * between(0.0, 10.0))};
+    expect_balance(model, "pair " + std::to_string(seed));
   }
 }
 
