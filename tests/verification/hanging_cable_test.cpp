@@ -1,5 +1,5 @@
-/// Cables that hang in elastic catenaries, against printed values, and against the equations of end forces
-/// (H. M. Irvine, Cable Structures, 1981, section 1.3) in structures.
+/// Cables that hang in elastic catenaries, against reference values of nine digits, and against the equations
+/// of end forces (H. M. Irvine, Cable Structures, 1981, section 1.3) in structures.
 #include <array>
 #include <cmath>
 #include <map>
@@ -75,7 +75,8 @@ State state_of(const Model& model, double accuracy = 1e-8) {
   return result.states.at(0);
 }
 
-/// A rope as long as its span, of EA = 5000: printed for a beam of the bending stiffness 1e-4 in its place.
+/// A rope as long as its span, of EA = 5000; reference values by the elastic catenary, which another program
+/// solved.
 TEST(HangingCable, RopeAsLongAsItsSpan) {
   const State state = state_of(one_rope({20.0, 0.0}, 5000.0, 20.0, 1.2));
   const MemberState& rope = member_of(state, "rope");
