@@ -3,49 +3,40 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <unordered_set>
 #include <variant>
 
 #include "solver/check/check_parts.h"
+#include "solver/resolve/rods.h"
 
 namespace snapthrough::checks {
 
 namespace {
 
-/// Self weights of a model.
-struct Weights {
-  double constant_x = 0.0;
-  double constant_y = 0.0;
-  bool grows = false;
-};
-
-Weights weights_of(const Model& model) {
-  Weights out;
-  for (const Load& load : model.loads) {
+/// Whether some self weight of a model grows with the load factor.
+bool weight_grows(const Model& model) {
+  return std::ranges::any_of(model.loads, [](const Load& load) {
     const auto* weight = std::get_if<SelfWeight>(&load);
-    if (weight == nullptr) continue;
-    if (weight->pattern == Pattern::proportional) {
-      out.grows = out.grows || weight->gravity[0] != 0.0 || weight->gravity[1] != 0.0;
-    } else {
-      out.constant_x += weight->gravity[0];
-      out.constant_y += weight->gravity[1];
-    }
-  }
-  return out;
+    return weight != nullptr && weight->pattern == Pattern::proportional &&
+           (weight->gravity[0] != 0.0 || weight->gravity[1] != 0.0);
+  });
 }
 
 /// Reports what a cable cannot have. @param place of the member
-void check_cable(const Place& place, const Member& cable, const Section* section, const Weights& weights) {
+/// @param has_weight, grows whether the model has a constant self weight, and one that grows
+void check_cable(const Place& place, const Member& cable, const Section* section, bool has_weight,
+                 bool grows) {
   if (cable.reaction != Reaction::tension_only)
     (place / "reaction").report("not_supported", "a cable only pulls: leave reaction out");
   if (cable.pretension && cable.pretension->force)
     (place / "pretension" / "force")
         .report("not_supported", "the force of a cable varies along it: give unstressed_length");
-  if (weights.grows)
+  if (grows)
     (place / "cable")
         .report("not_supported",
                 "a cable hangs under its weight from the first load factor on: self_weight needs "
                 "\"pattern\": \"constant\"");
-  else if (!(std::hypot(weights.constant_x, weights.constant_y) > 0.0))
+  else if (!has_weight)
     (place / "cable")
         .report("no_weight",
                 "a cable hangs under its weight: the model needs a load self_weight with \"pattern\": "
@@ -60,15 +51,15 @@ void check_cable(const Place& place, const Member& cable, const Section* section
 
 /// Reports temperatures that vary along a cable.
 void check_temperatures(const Place& model, const Model& data) {
-  for (std::size_t i = 0; i < data.members.size(); ++i) {
-    const auto varies = [&](const Load& load) {
-      const auto* heat = std::get_if<TemperatureLoad>(&load);
-      return heat != nullptr && heat->member == data.members[i].id && !heat->change_along.empty();
-    };
-    if (data.members[i].cable && std::ranges::any_of(data.loads, varies))
+  std::unordered_set<std::string> varies;
+  for (const Load& load : data.loads) {
+    const auto* heat = std::get_if<TemperatureLoad>(&load);
+    if (heat != nullptr && !heat->change_along.empty()) varies.insert(heat->member);
+  }
+  for (std::size_t i = 0; i < data.members.size(); ++i)
+    if (data.members[i].cable && varies.contains(data.members[i].id))
       (model / "members" / i / "cable")
           .report("not_supported", "the change of a cable's temperature does not vary along it");
-  }
 }
 
 /// Reports analyses that small displacements or vibrations of a cable would need.
@@ -97,11 +88,13 @@ void check_analysis_of_cables(const Place& root, const Model& model, const Analy
 
 void check_cables(const Place& root, const Model& model, const Analysis& analysis, const Names& names) {
   if (std::ranges::none_of(model.members, &Member::cable)) return;
-  const Weights weights = weights_of(model);
+  const auto [x, y] = gravity_of(model, Pattern::constant);
+  const bool has_weight = std::hypot(x, y) > 0.0;
+  const bool grows = weight_grows(model);
   for (std::size_t i = 0; i < model.members.size(); ++i)
     if (model.members[i].cable)
       check_cable(root / "model" / "members" / i, model.members[i],
-                  section_of(model.members[i], model, names), weights);
+                  section_of(model.members[i], model, names), has_weight, grows);
   check_temperatures(root / "model", model);
   check_analysis_of_cables(root, model, analysis);
 }

@@ -61,7 +61,7 @@ void check_location(const Place& place, const Location& location, const Names& n
 bool require_beam(const Place& place, const std::string& member, const Names& names);
 /// Requires what one-sided members cannot have to be left out.
 void check_rod(const Place& place, const Member& rod);
-/// Checks members that hang between their nodes, and the analysis if there are any.
+/// Checks cables (Member::cable); where the model has some, also whether the analysis takes them.
 /// @param root the place ""
 void check_cables(const Place& root, const Model& model, const Analysis& analysis, const Names& names);
 /// Section of a member; null: it names a section that does not exist.

@@ -91,15 +91,15 @@ bool is_plainly_held(const ResolvedModel& model) {
 }
 
 bool is_loose(const ResolvedModel& model) {
-  const auto pulls = [](const ResolvedSpring& spring) {
-    return spring.cable || (spring.rod && spring.reaction == Reaction::tension_only);
+  const auto hangs = [](const ResolvedSpring& spring) { return spring.cable.has_value(); };
+  const auto pulls = [&](const ResolvedSpring& spring) {
+    return hangs(spring) || (spring.rod && spring.reaction == Reaction::tension_only);
   };
   const auto is_slack = [&](const ResolvedSpring& spring) {
-    return spring.cable || (pulls(spring) && spring.without_force[0] < 0.0);
+    return hangs(spring) || (pulls(spring) && spring.without_force[0] < 0.0);
   };
   if (std::ranges::none_of(model.springs, pulls)) return false;
   // where nothing bends, the state of least energy is the only one, and it needs no path that leads there
-  const auto hangs = [](const ResolvedSpring& spring) { return spring.cable.has_value(); };
   if (model.members.empty() && std::ranges::any_of(model.springs, hangs)) return true;
   const RigidMechanism mechanism(model, HeldBy::all_as_bilateral);
   if (mechanism.unknown() || mechanism.motions().empty()) return false;

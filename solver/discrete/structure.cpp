@@ -140,7 +140,8 @@ SpringReading reading_of(const Structure& structure, std::size_t index, const Ei
   if (law.cable) {
     const Eigen::Vector2d pull = law.cable->pull(rod_of(structure, index).ends(y)).force;
     out.force = pull.norm();
-    out.displacement = law.cable->largest_tension(pull) / law.cable->axial_stiffness() * law.length;
+    const double tension = law.cable->force_at(pull, law.cable->tightest(pull)).norm();
+    out.displacement = tension / law.cable->axial_stiffness() * law.length;
     row = {-pull[0] / out.force, -pull[1] / out.force, 0.0};
   } else if (spring.rod) {
     const SpringMotion motion = rod_of(structure, index).motion(y, structure.geometry == Geometry::linear);

@@ -20,29 +20,23 @@ class HangingCable {
       : spring_(rod_of(structure, spring)),
         start_(DofMap::displacement(y, spring_.node)),
         lengthening_(spring_.ends(y).lengthening),
-        force_(cable().pull(spring_.ends(y)).force),
-        drawn_force_(cable().pull(spring_.ends(VectorXd::Zero(y.size()))).force) {}
+        force_(cable().pull(spring_.ends(y)).force) {}
 
   [[nodiscard]] double length() const { return cable().length(); }
   /// Place as the cable is drawn, relative to its start.
-  [[nodiscard]] Vector2d drawn(double s) const { return cable().place_at(drawn_force_, 0.0, s); }
+  [[nodiscard]] Vector2d drawn(double s) const { return cable().place_at(spring_.drawn_pull, 0.0, s); }
   [[nodiscard]] Vector2d displacement(double s) const {
     return start_ + cable().place_at(force_, lengthening_, s) - drawn(s);
   }
   [[nodiscard]] double tension(double s) const { return cable().force_at(force_, s).norm(); }
   /// Angle from the tangent of the drawn cable to that of the state.
   [[nodiscard]] double rotation(double s) const {
-    const Vector2d from = cable().force_at(drawn_force_, s);
+    const Vector2d from = cable().force_at(spring_.drawn_pull, s);
     const Vector2d to = cable().force_at(force_, s);
     return std::atan2(from[0] * to[1] - from[1] * to[0], from.dot(to));
   }
-  /// Place of the smallest tension: where the force is across the weight, or the end next to it.
-  [[nodiscard]] double slackest() const {
-    const Vector2d weight = (cable().force_at(force_, 0.0) - cable().force_at(force_, length())) / length();
-    const double s = 0.5 * length() + force_.dot(weight) / weight.squaredNorm();
-    return std::clamp(s, 0.0, length());
-  }
-  [[nodiscard]] double tightest() const { return tension(0.0) >= tension(length()) ? 0.0 : length(); }
+  [[nodiscard]] double slackest() const { return cable().slackest(force_); }
+  [[nodiscard]] double tightest() const { return cable().tightest(force_); }
   [[nodiscard]] Peak largest_displacement() const {
     PeakSearch<1> search;
     const auto size_at = [this](double s) { return std::array{displacement(s).norm()}; };
@@ -58,8 +52,7 @@ class HangingCable {
   NodeSpring spring_;
   Vector2d start_;
   double lengthening_;
-  Vector2d force_;
-  Vector2d drawn_force_;
+  Vector2d force_;  ///< in the middle of the cable
 };
 
 /// Sets the extremes of a cable, and its stress over strength where the spring has one.

@@ -13,18 +13,6 @@
 namespace snapthrough {
 namespace {
 
-/// Accelerations of all self weights of a pattern together; zero: none.
-std::array<double, 2> gravity_of(const Model& model, Pattern pattern) {
-  std::array<double, 2> sum{0.0, 0.0};
-  for (const Load& load : model.loads) {
-    const auto* weight = std::get_if<SelfWeight>(&load);
-    if (weight == nullptr || weight->pattern != pattern) continue;
-    sum[0] += weight->gravity[0];
-    sum[1] += weight->gravity[1];
-  }
-  return sum;
-}
-
 /// Mean of a function of a number along a member, to rounding for sections that taper to a tenth.
 template <class Function>
 double mean_of(const AlongMember& number, const Function& function) {
@@ -122,6 +110,17 @@ std::map<std::string, std::vector<const TemperatureLoad*>> take_temperatures(con
 }
 
 }  // namespace
+
+std::array<double, 2> gravity_of(const Model& model, Pattern pattern) {
+  std::array<double, 2> sum{0.0, 0.0};
+  for (const Load& load : model.loads) {
+    const auto* weight = std::get_if<SelfWeight>(&load);
+    if (weight == nullptr || weight->pattern != pattern) continue;
+    sum[0] += weight->gravity[0];
+    sum[1] += weight->gravity[1];
+  }
+  return sum;
+}
 
 double longest_rod(const std::vector<ResolvedSpring>& springs) {
   double out = 0.0;

@@ -3,6 +3,7 @@
 /// One-sided members as springs between their nodes.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -23,6 +24,9 @@ namespace snapthrough {
 /// @return empty: no member is one-sided
 /// @pre the model passed all checks but that of mechanisms
 [[nodiscard]] std::optional<Model> with_rods_as_springs(const Model& model);
+
+/// Accelerations of all self weights of a pattern together; zero: none.
+[[nodiscard]] std::array<double, 2> gravity_of(const Model& model, Pattern pattern);
 
 /// Length of the longest rod among the springs of a model, on the undeformed structure; 0: none is a rod.
 [[nodiscard]] double longest_rod(const std::vector<ResolvedSpring>& springs);

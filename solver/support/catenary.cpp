@@ -39,17 +39,17 @@ class Integral {
     const double fall = v2_ < 0.0 ? h * h / (t2_ - v2_) : t2_ + v2_;
     less_ = rise + fall;
   }
-  /// (dA/dh, dA/dv)
+  /// First derivatives of A: by h, by v.
   [[nodiscard]] std::array<double, 2> gradient() const {
     return {h_ * parameter(), 2.0 * v_ * l_ / (t1_ + t2_)};
   }
-  /// d2A/dh2, d2A/dhdv, d2A/dv2
+  /// Second derivatives of A: by h twice, by h and v, by v twice.
   [[nodiscard]] std::array<double, 3> curvature() const {
     const double sum = t1_ + t2_;
     const double vv = 2.0 * l_ * sum / (t1_ / h_ * (t2_ / h_) * less_ * (less_ + 2.0 * w_ * l_));
     return {parameter() - vv, -2.0 * (h_ / t1_) * (v_ / t2_) * l_ / sum, vv};
   }
-  /// d3A/dh3, d3A/dh2dv, d3A/dhdv2, d3A/dv3
+  /// Third derivatives of A: by h, three times, twice, once, and never; by v as often as is left.
   [[nodiscard]] std::array<double, 4> third() const {
     const double sine1 = v1_ / t1_;
     const double sine2 = v2_ / t2_;

@@ -47,8 +47,14 @@ class Catenary {
   [[nodiscard]] Eigen::Vector2d force_at(const Eigen::Vector2d& force, double s) const {
     return force + (0.5 * length_ - s) * weight_;
   }
-  [[nodiscard]] double largest_tension(const Eigen::Vector2d& force) const {
-    return std::max(force_at(force, 0.0).norm(), force_at(force, length_).norm());
+  /// Length from the start to the end with the larger tension. @param force as for force_at()
+  [[nodiscard]] double tightest(const Eigen::Vector2d& force) const {
+    return force_at(force, 0.0).norm() >= force_at(force, length_).norm() ? 0.0 : length_;
+  }
+  /// Length from the start to the place of least tension: where the force is across the weight, or the end
+  /// next to it. @param force as for force_at()
+  [[nodiscard]] double slackest(const Eigen::Vector2d& force) const {
+    return std::clamp(0.5 * length_ + force.dot(along_) / size_, 0.0, length_);
   }
   /// Vector from the start to the place at the length s from it. @param force, s as for force_at()
   [[nodiscard]] Eigen::Vector2d place_at(const Eigen::Vector2d& force, double lengthening, double s) const;

@@ -149,11 +149,10 @@ SpringLaw law_of(const Spring& spring, const Scales& scales) {
     out.row = {0.0, 0.0, out.sense};
     out.law = {scales.scaled_rotational(stiffness), gap, one_sided};
   }
-  if (const auto& cable = spring.cable)
+  if (const auto& cable = spring.cable) {
     out.cable = std::make_shared<const Catenary>(
         scales.scaled_force(cable->axial_stiffness), scales.scaled_length(cable->length),
         scales.scaled_line_load(1.0) * Eigen::Vector2d(cable->weight[0], cable->weight[1]));
-  if (out.cable) {
     const Eigen::Vector2d chord = out.length * Eigen::Vector2d(out.row[0], out.row[1]);
     const Eigen::Vector2d pull = out.cable->pull({chord, 0.0}).force;
     out.drawn_pull = {pull[0], pull[1]};
