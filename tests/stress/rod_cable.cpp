@@ -49,8 +49,8 @@ Reach reach_of(const HangingBar& cable, const Vector2d& force, double lengthenin
 
 }  // namespace
 
-/// Newton's method from a force along the chord. Steps are halved while they lead farther away than twice the
-/// distance.
+/// Newton's method from a force along the chord. A step is halved while its end is as far beyond the least
+/// energy along it, by nine tenths of the slope, as its beginning is before it.
 BarPull pull_of(const HangingBar& cable, const Vector2d& chord, double lengthening) {
   const double weight = cable.length * cable.weight.norm();
   const double taut = cable.EA * (chord.norm() / (cable.length + lengthening) - 1.0);

@@ -42,6 +42,10 @@ struct Drawn {
   Vector2d q;
   Vector2d chord;
   double z;
+
+  [[nodiscard]] Catenary cable() const { return {EA, L, q}; }
+  /// Force in the middle of the cable.
+  [[nodiscard]] Vector2d force() const { return cable().pull({chord, z}).force; }
 };
 
 class RandomCables {
@@ -66,12 +70,12 @@ TEST(Catenary, PlacesAreThoseOfTheIntegral) {
   RandomCables cables;
   for (int i = 0; i < 500; ++i) {
     const Drawn one = cables.next();
-    const Catenary cable(one.EA, one.L, one.q);
-    const Vector2d force = cable.pull({one.chord, one.z}).force;
+    const Vector2d force = one.force();
     for (const double share : {0.3, 0.5, 1.0}) {
       const double s = share * one.L;
       const Vector2d expected = integrated(one.EA, one.L, one.q, force, one.z, s);
-      EXPECT_LT((cable.place_at(force, one.z, s) - expected).norm(), 1e-13 * one.L + 1e-13 * expected.norm())
+      EXPECT_LT((one.cable().place_at(force, one.z, s) - expected).norm(),
+                1e-13 * one.L + 1e-13 * expected.norm())
           << "cable " << i << " at " << share;
     }
   }
@@ -82,9 +86,8 @@ TEST(Catenary, TheForceHasTheChordGiven) {
   RandomCables cables;
   for (int i = 0; i < 50000; ++i) {
     const Drawn one = cables.next();
-    const Catenary cable(one.EA, one.L, one.q);
-    const Vector2d force = cable.pull({one.chord, one.z}).force;
-    EXPECT_LT((cable.place_at(force, one.z, one.L) - one.chord).norm(), 1e-12 * one.L) << "cable " << i;
+    EXPECT_LT((one.cable().place_at(one.force(), one.z, one.L) - one.chord).norm(), 1e-12 * one.L)
+        << "cable " << i;
   }
 }
 
